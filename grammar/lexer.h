@@ -83,6 +83,7 @@ typedef struct GrammarState {
     // Tokens that are read at once.
     GrammarQuick *quick; // NULL: there are none
     bool after_dot;      // the token before the previous one was a `.`; in a fragment, the one before the current
+    bool in_list;        // within the braces of a list of a mesh, see quick.c
     AstNode *node;       // of the current token VECTOR
     AstList list;        // of the current token ITEMS
 

@@ -51,6 +51,7 @@ void grammar_quick_free(GrammarQuick *quick)
 
 void grammar_learn_items(GrammarState *state, Span braces, AstList list)
 {
+    state->in_list = false;
     if (state->quick != NULL && state->quick->blocks != NULL) {
         grammar_blocks_learn(state->quick->blocks, state, braces, list);
     }
@@ -152,8 +153,102 @@ static bool begins_vector(const GrammarState *state)
     }
 }
 
+// ---- packs
+
+enum {
+    PACK_ITEMS = 384,
+    PACK_NUMBERS = 1152,
+    PACK_AHEAD = 512, // bytes at hand where an item begins: it may be as long
+};
+
+typedef struct Pack {
+    uint32_t count, number_count;
+    double numbers[PACK_NUMBERS];
+    uint8_t widths[PACK_ITEMS];
+} Pack;
+
+// A vector of numbers, or a number, written behind what the pack has.
+static const char *read_packed_item(const char *at, const char *end, Pack *pack)
+{
+    double *numbers = &pack->numbers[pack->number_count];
+    unsigned width = 0;
+    if (*at != '<') {
+        pack->widths[pack->count] = 1;
+        return plain_is_digit(*at) || *at == '-' ? plain_read_number(at, end, numbers) : NULL;
+    }
+    do {
+        at = plain_skip_blanks(at + 1);
+        bool is_number = plain_is_digit(at[*at == '-']) && width < COMPONENTS_MOST;
+        at = is_number ? plain_read_number(at, end, &numbers[width++]) : NULL;
+        at = at != NULL ? plain_skip_blanks(at) : NULL;
+    } while (at != NULL && *at == ',');
+    pack->widths[pack->count] = (uint8_t)width;
+    return at != NULL && *at == '>' && width > 1 && width <= 3 ? at + 1 : NULL;
+}
+
+// Items that commas or the list's end follow, so that nothing continues them. Returns the end of the last.
+static const char *read_packed_items(const char *at, const char *end, Pack *pack)
+{
+    const char *last = NULL;
+    pack->count = pack->number_count = 0;
+    while (end - at >= PACK_AHEAD && pack->count < PACK_ITEMS && pack->number_count + COMPONENTS_MOST <= PACK_NUMBERS) {
+        const char *after = read_packed_item(at, end, pack);
+        if (after == NULL) {
+            break;
+        }
+        at = plain_skip_blanks(after);
+        if (*at != ',' && *at != '}') {
+            break;
+        }
+        last = after;
+        pack->number_count += pack->widths[pack->count++];
+        if (*at == '}') {
+            break;
+        }
+        at = plain_skip_blanks(at + 1);
+    }
+    return last;
+}
+
+// Several vectors and numbers of a list of a mesh.
+static const char *read_pack(GrammarState *state, const char *at, const char *end, Token *token)
+{
+    Pack pack;
+    const char *after = state->previous.kind == ',' && !state->after_dot ? read_packed_items(at, end, &pack) : NULL;
+    if (after == NULL || pack.count < 2) {
+        return NULL;
+    }
+    Span span = {state->offset, state->offset + (uint64_t)(after - at)};
+    state->node = ast_packed(&state->builder, pack.widths, pack.count, pack.numbers, pack.number_count, span);
+    token->kind = TOKEN_VECTOR;
+    return after;
+}
+
+// The words whose braces hold nothing but numbers and vectors, by the thousand.
+static bool begins_list(const GrammarState *state)
+{
+    if (state->previous.kind != TOKEN_WORD) {
+        return false;
+    }
+    switch (state->previous.symbol) {
+    case W_vertex_vectors:
+    case W_normal_vectors:
+    case W_uv_vectors:
+    case W_face_indices:
+    case W_uv_indices:
+    case W_normal_indices: return true;
+    default: return false;
+    }
+}
+
 static const char *read_vector(GrammarState *state, const char *at, const char *end, Token *token)
 {
+    if (RT_UNLIKELY(state->in_list)) {
+        const char *packed = read_pack(state, at, end, token);
+        if (packed != NULL) {
+            return packed;
+        }
+    }
     Component components[COMPONENTS_MOST];
     unsigned count;
     const char *after = begins_vector(state) ? read_components(at + 1, end, components, &count) : NULL;
@@ -176,8 +271,9 @@ static const char *read_vector(GrammarState *state, const char *at, const char *
 // Items after a word, if they are like some that were read before.
 static const char *read_items(GrammarState *state, const char *at, const char *end, Token *token)
 {
+    state->in_list = begins_list(state);
     bool follows_word = state->previous.kind == TOKEN_WORD || state->previous.kind == TOKEN_TEXTURE;
-    if (!follows_word || state->after_dot || state->quick->blocks == NULL) {
+    if (!follows_word || state->in_list || state->after_dot || state->quick->blocks == NULL) {
         return NULL;
     }
     token->kind = TOKEN_ITEMS;

@@ -57,6 +57,7 @@ unit_programs = \
   tests/unit/test_trace_shapes \
   tests/unit/test_torus \
   tests/unit/test_polynomial \
+  tests/unit/test_mesh \
   tests/unit/test_scene \
   tests/unit/test_schema \
   tests/unit/test_ast \
@@ -123,6 +124,8 @@ tests_unit_test_trace_parts_SOURCES = %D%/unit/test_trace_parts.c $(trace_header
 tests_unit_test_trace_parts_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_shapes_SOURCES = %D%/unit/test_trace_shapes.c $(trace_headers)
 tests_unit_test_trace_shapes_LDADD = $(UNIT_TRACE)
+tests_unit_test_mesh_SOURCES = %D%/unit/test_mesh.c $(trace_headers)
+tests_unit_test_mesh_LDADD = $(UNIT_TRACE)
 tests_unit_test_torus_SOURCES = %D%/unit/test_torus.c %D%/unit/roots_oracle.h $(unit_headers)
 tests_unit_test_torus_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
 tests/unit/test_torus.$(OBJEXT): src/study/optional.h
@@ -358,6 +361,7 @@ lang_cases = \
   %D%/lang/limits.test \
   %D%/lang/loops.test \
   %D%/lang/macros.test \
+  %D%/lang/mesh.test \
   %D%/lang/normal.test \
   %D%/lang/pattern.test \
   %D%/lang/pigment.test \
@@ -404,9 +408,11 @@ update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 .PHONY: check-long
 check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
   tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
+  tests/unit/test_mesh$(EXEEXT) \
   tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
+	tests/unit/test_mesh$(EXEEXT) 1700000
 	tests/unit/test_range$(EXEEXT) 20000
 	tests/fuzz/fuzz_exponents$(EXEEXT) 10000
 	tests/exact/test_exact$(EXEEXT) 100000

@@ -31,20 +31,20 @@ syn keyword rtlangWord circular clipped_by color_map colour_map cone confidence 
 syn keyword rtlangWord control1 crackle cubic_wave cylinder cylindrical dents difference diffuse direction
 syn keyword rtlangWord disc distance emission exponent exr fade_color fade_colour fade_distance fade_power
 syn keyword rtlangWord falloff finish fisheye focal_point fog fog_alt fog_offset fog_type form frequency
-syn keyword rtlangWord fresnel gamma global_settings gradient granite hdr hexagon hollow image_map interior
-syn keyword rtlangWord interpolate intersection inverse ior jitter jpeg julia lambda leopard light_source
-syn keyword rtlangWord location look_at looks_like mandel map_type marble material matrix max_intersections
-syn keyword rtlangWord max_trace_level media_attenuation media_interaction merge metallic metric mm_per_unit
-syn keyword rtlangWord mortar no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator
-syn keyword rtlangWord normal normal_map number_of_waves object octaves offset omega once onion open orient
-syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
-syn keyword rtlangWord pigment_map planar plane png point_at poly_wave ppm premultiplied quick_color
-syn keyword rtlangWord quick_colour quilted radial radius ramp_wave reflection reflection_exponent refraction
-syn keyword rtlangWord right ripples rotate roughness scale scallop_wave shadowless sine_wave sky sky_sphere
-syn keyword rtlangWord slope_map smooth_triangle solid specular sphere spherical spiral1 split_union spotlight
-syn keyword rtlangWord spotted sturm texture texture_map tga tiff tightness torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
-syn keyword rtlangWord variance waves wood wrinkles
+syn keyword rtlangWord fresnel gamma global_settings gradient granite hdr hexagon hierarchy hollow image_map
+syn keyword rtlangWord inside_vector interior interpolate intersection inverse ior jitter jpeg julia lambda
+syn keyword rtlangWord leopard light_source location look_at looks_like mandel map_type marble material matrix
+syn keyword rtlangWord max_intersections max_trace_level media_attenuation media_interaction merge mesh mesh2
+syn keyword rtlangWord metallic metric mm_per_unit mortar no_bump_scale no_image no_radiosity no_reflection
+syn keyword rtlangWord no_shadow noise_generator normal normal_map number_of_waves object octaves offset omega
+syn keyword rtlangWord once onion open orient orthographic panoramic parallel pattern perspective pgm phase
+syn keyword rtlangWord phong phong_size pigment pigment_map planar plane png point_at poly_wave ppm
+syn keyword rtlangWord premultiplied quick_color quick_colour quilted radial radius ramp_wave reflection
+syn keyword rtlangWord reflection_exponent refraction right ripples rotate roughness scale scallop_wave
+syn keyword rtlangWord shadowless sine_wave sky sky_sphere slope_map smooth_triangle solid specular sphere
+syn keyword rtlangWord spherical spiral1 split_union spotlight spotted sturm texture texture_map tga tiff
+syn keyword rtlangWord tightness torus transform translate triangle triangle_wave turb_depth turbulence
+syn keyword rtlangWord ultra_wide_angle union up use_color use_colour variance waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

@@ -153,6 +153,26 @@ static bool clone_list(const AstNode *from, Arena *arena, AstNode **to)
     return true;
 }
 
+static const AstPack *pack_copy(Arena *arena, const AstPack *pack, uint32_t count)
+{
+    AstPack *copy = arena_alloc(arena, sizeof *copy);
+    double *numbers = arena_copy(arena, pack->numbers, pack->number_count * sizeof *numbers);
+    uint8_t *widths = arena_copy(arena, pack->widths, count);
+    if (!copy || !numbers || !widths) {
+        return NULL;
+    }
+    *copy = (AstPack){pack->number_count, widths, numbers};
+    return copy;
+}
+
+AstNode *ast_packed(AstBuilder *builder, const uint8_t *widths, uint32_t count, const double *numbers,
+                    uint32_t number_count, Span span)
+{
+    const AstPack *pack = pack_copy(builder->arena, &(AstPack){number_count, widths, numbers}, count);
+    AstNode node = {.kind = AST_PACKED, .depth = 1, .count = count, .span = span, .pack = pack};
+    return pack ? new_node(builder, node) : fail(builder, DIAG_E0602, span);
+}
+
 AstNode *ast_clone(const AstNode *node, Arena *arena)
 {
     AstNode *copy = arena_alloc(arena, sizeof *copy);
@@ -163,6 +183,10 @@ AstNode *ast_clone(const AstNode *node, Arena *arena)
     copy->next = NULL;
     if (node->kind == AST_NUMBER || (node->flags & AST_KNOWN)) {
         return copy;
+    }
+    if (node->kind == AST_PACKED) {
+        copy->pack = pack_copy(arena, node->pack, node->count);
+        return copy->pack ? copy : NULL;
     }
     copy->a = copy->b = copy->c = NULL;
     bool complete = clone_list(node->a, arena, &copy->a) && clone_list(node->b, arena, &copy->b) &&
@@ -191,6 +215,12 @@ bool ast_equal(const AstNode *one, const AstNode *other)
     }
     if (one->kind == AST_NUMBER) {
         return memcmp(&one->number, &other->number, sizeof one->number) == 0;
+    }
+    if (one->kind == AST_PACKED) {
+        return one->count == other->count && one->pack->number_count == other->pack->number_count &&
+               memcmp(one->pack->widths, other->pack->widths, one->count) == 0 &&
+               memcmp(one->pack->numbers, other->pack->numbers,
+                      one->pack->number_count * sizeof *one->pack->numbers) == 0;
     }
     return lists_equal(one->a, other->a) && lists_equal(one->b, other->b) && lists_equal(one->c, other->c);
 }

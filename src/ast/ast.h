@@ -11,6 +11,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "ast/pack.h"
 #include "base/arena.h"
 #include "base/diag.h"
 #include "base/intern.h"
@@ -58,6 +59,7 @@ struct AstNode {
     Span span;
     union {
         double number; // NUMBER only
+        const AstPack *pack; // PACKED only
         AstNode *a;
     };
     AstNode *b;
@@ -93,6 +95,9 @@ AstNode *ast_node(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Sp
 AstNode *ast_node_list(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstList a, AstList b,
                        AstList c);
 AstNode *ast_number(AstBuilder *builder, double number, Span span);
+// Of so many items, see ast/pack.h, which are copied.
+AstNode *ast_packed(AstBuilder *builder, const uint8_t *widths, uint32_t count, const double *numbers,
+                    uint32_t number_count, Span span);
 
 // Appends to a list and returns it.
 AstList ast_append(AstList list, AstNode *node);

@@ -58,6 +58,22 @@ static void print_array(Printer *printer, const AstNode *node, int indent)
     }
 }
 
+// As the items that it stands for.
+static void print_packed(Printer *printer, const AstNode *node)
+{
+    const double *numbers = node->pack->numbers;
+    for (uint32_t item = 0; item < node->count; item++) {
+        unsigned width = node->pack->widths[item];
+        printer_put(printer, item ? ", " : "");
+        printer_put(printer, width > 1 ? "<" : "");
+        for (unsigned i = 0; i < width; i++) {
+            printer_put(printer, i ? ", " : "");
+            text_append_double(printer->out, *numbers++);
+        }
+        printer_put(printer, width > 1 ? ">" : "");
+    }
+}
+
 void printer_value(Printer *printer, const AstNode *node, int indent)
 {
     switch (node->kind) {
@@ -68,6 +84,9 @@ void printer_value(Printer *printer, const AstNode *node, int indent)
         printer_put_symbol(printer, node->symbol);
         printer_put(printer, " {");
         print_block(printer, node->a, indent, "}");
+        break;
+    case AST_PACKED:
+        print_packed(printer, node);
         break;
     case AST_ENTRY:
         printer_put(printer, "[");
@@ -275,7 +294,7 @@ void printer_directive(Printer *printer, const AstNode *node, int indent)
 
 static bool is_operand_of_line(const AstNode *node)
 {
-    return printer_is_expression(node) || node->kind == AST_WORD;
+    return printer_is_expression(node) || node->kind == AST_WORD || node->kind == AST_PACKED;
 }
 
 static void print_item(Printer *printer, const AstNode *node, Neighbours *neighbours, int indent)
@@ -301,7 +320,8 @@ static void print_items(Printer *printer, const AstNode *items, int indent)
     printer->indent = indent;
     for (const AstNode *node = items; node; node = node->next) {
         const AstNode *previous = neighbours.previous;
-        bool same_line = previous && printer_is_expression(node) && is_operand_of_line(previous);
+        bool is_value = printer_is_expression(node) || node->kind == AST_PACKED;
+        bool same_line = previous && is_value && is_operand_of_line(previous);
         bool comma = node->flags & AST_AFTER_COMMA;
         if (same_line) {
             printer_put(printer, comma ? ", " : " ");

@@ -13,8 +13,7 @@ enum {
 
 static MaterialIndex material_of(const Geometry *g, ShapeId shape)
 {
-    return shape_kind(shape) == SHAPE_PART ? g->shapes.solids[part_index(shape)].material
-                                           : geometry_material(g, FEATURES, shape);
+    return shape_is_on_part(shape) ? shapes_material(&g->shapes, shape) : geometry_material(g, FEATURES, shape);
 }
 
 static bool is_plain(const Prepared *p, MaterialIndex index)

@@ -104,6 +104,10 @@ static void key_part(Key *key, const Part *part)
         for (unsigned i = 0; i < primitive_class(part->kind)->key_count; i++) {
             key_add(key, part->data[i]);
         }
+        if (primitive_class(part->kind)->is_mesh) { // two that have the same triangles, but by chance, are two
+            const Mesh *mesh = part->mesh.mesh;
+            key_add(key, vec3(mesh->number, mesh->face_textures ? 1.0 : 0.0, (double)mesh->source));
+        }
     }
 }
 

@@ -240,6 +240,21 @@ typedef struct SmoothTriangleDesc {
     Vec3 corners[3], normals[3];
 } SmoothTriangleDesc;
 
+// A face that has another texture at each corner.
+typedef struct MeshCorners {
+    uint32_t face, textures[3];
+} MeshCorners;
+
+typedef struct MeshDesc {
+    ObjectPart part;
+    Mesh *mesh; // of the scene; not changed any more when the description is complete
+    const TextureDesc **textures; // all of them, in its own space
+    const TextureDesc **singles;  // those that some face has alone; the mesh counts these, and behind them `corners`
+    const MeshCorners *corners;
+    uint32_t single_count, corner_count;
+    Vec3 inside_vector;
+} MeshDesc;
+
 struct UnionMember {
     UnionMember *next;
     const void *object; // the description of its kind
@@ -344,6 +359,7 @@ typedef union Desc {
     PolygonDesc polygon;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
+    MeshDesc mesh;
     UnionDesc group;
     BackgroundDesc background;
     SkySphereDesc sky;

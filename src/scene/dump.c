@@ -318,6 +318,7 @@ void scene_dump(const Scene *scene, TextBuffer *out)
         dump_material(&scene->materials.items[i], i + 1, out);
     }
     dump_textures(scene, out);
+    dump_meshes(scene, out);
     dump_shapes(scene, out);
     dump_sky(scene, out);
 }

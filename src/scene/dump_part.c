@@ -5,8 +5,12 @@
 #include "scene/dump.h"
 #include "scene/primitive.h"
 
-static void dump_form(const Part *part, TextBuffer *out)
+static void dump_form(const Scene *scene, const Part *part, TextBuffer *out)
 {
+    if (primitive_class(part->kind)->is_mesh) {
+        dump_mesh_part(scene, part, out);
+        return;
+    }
     const PrimitiveClass *primitive = primitive_class(part->kind);
     text_append(out, primitive->head);
     if (primitive->dump) {
@@ -30,7 +34,7 @@ static void dump_words(bool is_inverse, uint8_t hidden, const char *before, cons
 
 void dump_part(const Scene *scene, const Part *part, const uint32_t *around, TextBuffer *out)
 {
-    dump_form(part, out);
+    dump_form(scene, part, out);
     text_append(out, part->flags & PART_OPEN ? " open" : "");
     if (part->kind != PART_PLANE) {
         text_append(out, " matrix ");

@@ -398,6 +398,13 @@ static double polygon_support(const Part *part, Vec3 n)
     return outline_support(&part->list, (OutlinePoint){n.x, n.y});
 }
 
+// ---- meshes: they reach as far as their boxes
+
+static bool solid_mesh_holds(const Part *part, Vec3 p)
+{
+    return mesh_holds(part->mesh.mesh, p);
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -537,6 +544,26 @@ static const PrimitiveClass classes[] = {
                       .support = polygon_support,
                       .dump = outline_dump,
                       .measure = box_measure},
+    [PART_MESH] = {.word = "mesh",
+                   .head = "",
+                   .family = FAMILY_STRAIGHT,
+                   .surface = PART_MESH,
+                   .key_count = 1,
+                   .is_mesh = true,
+                   .is_sized = true,
+                   .support = box_support,
+                   .measure = box_measure},
+    [PART_MESH_SOLID] = {.word = "mesh",
+                         .head = "",
+                         .family = FAMILY_STRAIGHT,
+                         .surface = PART_MESH,
+                         .key_count = 1,
+                         .interval_count = 2,
+                         .is_mesh = true,
+                         .is_sized = true,
+                         .support = box_support,
+                         .holds = solid_mesh_holds,
+                               .measure = box_measure},
 };
 
 const PrimitiveClass *primitive_class(PartKind kind)

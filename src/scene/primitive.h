@@ -22,6 +22,7 @@ typedef struct PrimitiveClass {
     uint8_t key_count;    // of data[] that make one surface another
     uint8_t interval_count; // that a line has in it, at most; 0: it is flat and has no inside, but a line meets it once
     bool has_list;        // data[2] is a list of numbers
+    bool is_mesh;         // it is made of faces: a line meets it any number of times
     bool is_sized;        // data[0] and data[1] are its bounds; else those are -1 and 1 in each coordinate
     uint32_t (*interval_most)(const Part *part); // where that depends on its list; NULL: interval_count
     // The greatest p·n over the points of the fixed shape.

@@ -77,6 +77,11 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->planes);
     ARRAY_FREE(&scene->parts);
     numbers_fini(&scene->numbers);
+    for (size_t i = 0; i < scene->meshes.count; i++) {
+        mesh_free(scene->meshes.items[i]);
+    }
+    ARRAY_FREE(&scene->meshes);
+    ARRAY_FREE(&scene->face_materials);
     ARRAY_FREE(&scene->nodes);
     ARRAY_FREE(&scene->composites);
     ARRAY_FREE(&scene->start_shapes);
@@ -189,8 +194,8 @@ bool scene_add_material_record(Scene *scene, const Material *material, MaterialI
 bool scene_materials_are_equal(const Scene *scene, MaterialIndex one, MaterialIndex other)
 {
     bool are_plain = one < scene->materials.count && other < scene->materials.count;
-    return one == other || (are_plain && memcmp(&scene->materials.items[one], &scene->materials.items[other],
-                                                sizeof(Material)) == 0);
+    return one == other ||
+           (are_plain && memcmp(&scene->materials.items[one], &scene->materials.items[other], sizeof(Material)) == 0);
 }
 
 bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index)
@@ -230,17 +235,28 @@ size_t scene_bytes(const Scene *scene)
 {
 #define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
     return LIST_BYTES(scene->sky) + LIST_BYTES(scene->fogs) + LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) +
-           LIST_BYTES(scene->finishes) +
-           LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) + LIST_BYTES(scene->slope_entries) +
-           LIST_BYTES(scene->normal_entries) + LIST_BYTES(scene->normals) + LIST_BYTES(scene->texture_entries) +
-           LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
-           LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) + LIST_BYTES(scene->planes) +
-           LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
-           LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
+           LIST_BYTES(scene->finishes) + LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) +
+           LIST_BYTES(scene->slope_entries) + LIST_BYTES(scene->normal_entries) + LIST_BYTES(scene->normals) +
+           LIST_BYTES(scene->texture_entries) + LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) +
+           LIST_BYTES(scene->compounds) + LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) +
+           LIST_BYTES(scene->planes) + LIST_BYTES(scene->parts) + LIST_BYTES(scene->meshes) +
+           LIST_BYTES(scene->face_materials) + scene->mesh_bytes + LIST_BYTES(scene->nodes) +
+           LIST_BYTES(scene->composites) + LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
            LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
            LIST_BYTES(scene->pictures) + LIST_BYTES(scene->numbers.lists) + LIST_BYTES(scene->numbers.slots) +
            scene->numbers.bytes + scene_picture_bytes(scene);
 #undef LIST_BYTES
+}
+
+bool scene_add_mesh(Scene *scene, Mesh *mesh)
+{
+    if (!ARRAY_PUSH(&scene->meshes, mesh)) {
+        return false;
+    }
+    mesh->number = scene->plain_mesh_count;
+    scene->plain_mesh_count += !mesh->face_textures;
+    scene->mesh_bytes += mesh_bytes(mesh);
+    return true;
 }
 
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer)
@@ -455,6 +471,16 @@ bool scene_add_leaf(Scene *scene, const Part *part)
 
 // What a ray keeps of each interval of its line in a part: as an interval, and in a composite as two crossings.
 enum { INTERVAL_STACK = 64, CROSSINGS_STACK = 2 * 40 };
+// And of a mesh, which it looks for along its line.
+enum { MESH_CURSOR_STACK = 1020 };
+
+static size_t part_stack(const Part *part)
+{
+    unsigned intervals = primitive_intervals(part);
+    bool is_mesh = part->kind == PART_MESH || part->kind == PART_MESH_SOLID;
+    return COMPOSITE_PART_STACK + (is_mesh ? MESH_CURSOR_STACK : 0) +
+           (intervals > 1 ? (size_t)intervals * CROSSINGS_STACK : 0);
+}
 
 size_t scene_composite_stack(const Scene *scene)
 {
@@ -466,11 +492,9 @@ size_t scene_composite_stack(const Scene *scene)
     size_t alone = most;
     for (size_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];
-        size_t bytes = alone + (size_t)composite->part_count * COMPOSITE_PART_STACK +
-                       (size_t)composite->node_count * COMPOSITE_NODE_STACK;
+        size_t bytes = alone + (size_t)composite->node_count * COMPOSITE_NODE_STACK;
         for (uint32_t k = 0; k < composite->part_count; k++) {
-            unsigned intervals = primitive_intervals(&scene->parts.items[composite->first_part + k]);
-            bytes += intervals > 1 ? (size_t)intervals * CROSSINGS_STACK : 0;
+            bytes += part_stack(&scene->parts.items[composite->first_part + k]);
         }
         most = bytes > most ? bytes : most;
     }
@@ -500,7 +524,8 @@ void scene_end_body(Scene *scene, uint32_t index, bool is_kept)
     }
 }
 
-// The last one that begins at or before the shape is the innermost of those that hold it, or within those or behind them.
+// The last one that begins at or before the shape is the innermost of those that hold it, or within those or behind
+// them.
 uint32_t scene_body(const Scene *scene, uint32_t order)
 {
     size_t low = 0, high = scene->bodies.count;

@@ -20,6 +20,7 @@
 #include "math/transform.h"
 #include "math/vec3.h"
 #include "scene/numbers.h"
+#include "scene/mesh.h"
 #include "scene/pattern.h"
 #include "scene/picture.h"
 #include "scene/unique.h"
@@ -247,6 +248,7 @@ typedef struct Plane {
 //   prism           an outline in x and z, from y = fixed[0].y to fixed[1].y, one that is conic y times as large; fixed[]
 //                   are its bounds, the list is the outline
 //   polygon         an outline of straight pieces in x and y, at z = 0
+//   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
 typedef enum PartKind {
     PART_SPHERE,
     PART_PLANE,
@@ -260,6 +262,8 @@ typedef enum PartKind {
     PART_BLOB,
     PART_PRISM,
     PART_POLYGON,
+    PART_MESH,
+    PART_MESH_SOLID,
     PART_KINDS
 } PartKind;
 
@@ -280,6 +284,14 @@ static inline bool hidden_meet(uint8_t a, uint8_t b)
 
 #define NODE_NONE UINT32_MAX
 
+// What a mesh has in the place of numbers. Each of its faces has one of Scene.face_materials from `materials` on, or,
+// where it has no texture of its own, the part's material.
+typedef struct PartMesh {
+    Vec3 low, high;
+    const Mesh *mesh; // of Scene.meshes, or of whoever made the part
+    uint64_t materials;
+} PartMesh;
+
 typedef struct Part {
     PartKind kind;
     uint8_t flags, hidden;  // PartFlag, HiddenFrom bits; hidden counts only outside of composites
@@ -295,6 +307,7 @@ typedef struct Part {
             Vec3 fixed[2];
             Numbers list; // the scene's, once the part is added: equal lists are at one place
         };
+        PartMesh mesh; // of a mesh
     };
 } Part;
 
@@ -435,6 +448,10 @@ typedef struct Scene {
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
     NumberPool numbers; // the lists of parts
+    ARRAY(Mesh *) meshes; // owned; parts may share one
+    size_t mesh_bytes;    // of all of them
+    uint32_t plain_mesh_count; // of them, without textures of their own
+    ARRAY(MaterialIndex) face_materials;
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
     ARRAY(StartShape) start_shapes; // in the order of shapes
@@ -540,6 +557,10 @@ bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIn
                      uint64_t source) RT_MUST_CHECK;
 
 // Adds a part that stands alone; its list of numbers, if it has one, is copied.
+// Takes over a mesh, whose number is set.
+bool scene_add_mesh(Scene *scene, Mesh *mesh) RT_MUST_CHECK;
+
+// Adds a part that stands alone.
 bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;
 
 // A composite begins, then come its nodes and leaves in their order, each with its parent; scene_end_composite sets

@@ -339,6 +339,14 @@ static const SchemaProperty triangle_arguments[] = {
 
 static const TriangleDesc triangle_defaults = {.part = OBJECT_PART};
 
+static const SchemaProperty mesh_properties[] = {
+    {"inside_vector", TYPE_VECTOR, AT(MeshDesc, inside_vector), .is_first = true,
+     .doc = "inside is what an odd number of faces lies along; 0: none"},
+    {"hierarchy", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: there is always a tree"},
+};
+
+static const MeshDesc mesh_defaults = {.part = OBJECT_PART};
+
 static const SchemaProperty smooth_triangle_arguments[] = {
     {"first corner", TYPE_VECTOR, AT(SmoothTriangleDesc, corners[0]), .doc = "in any order"},
     {"first normal", TYPE_VECTOR, AT(SmoothTriangleDesc, normals[0]), .doc = "there; 0: not drawn"},
@@ -771,6 +779,22 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                               .arguments = LIST(smooth_triangle_arguments),
                               .groups = {OBJECT_GROUPS},
                               .doc = "A triangle that is lit as if its normal went over from corner to corner."},
+    [KIND_MESH] = {.word = "mesh",
+                   .what = "a mesh",
+                   .size = sizeof(MeshDesc),
+                   .defaults = &mesh_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .groups = {LIST(mesh_properties), OBJECT_GROUPS},
+                   .doc = "Triangles and smooth triangles, which stand first, as one object: see \"Meshes\"."},
+    [KIND_MESH2] = {.word = "mesh2",
+                    .what = "a mesh",
+                    .size = sizeof(MeshDesc),
+                    .defaults = &mesh_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .groups = {LIST(mesh_properties), OBJECT_GROUPS},
+                    .doc = "The same by lists of corners and faces, which stand first: see \"Meshes\"."},
     [KIND_UNION] = {.word = "union",
                     .what = "a union",
                     .size = sizeof(UnionDesc),
@@ -974,8 +998,6 @@ static const SchemaUnsupported unsupported[] = {
     {"lathe", true, NULL, NULL},
     {"light_group", true, "use a `union`", "its lights and shapes"},
     {"media", true, NULL, "smoke, dust and fire, and their light"},
-    {"mesh", true, NULL, NULL},
-    {"mesh2", true, NULL, NULL},
     {"ovus", true, "use a sphere with `scale`", NULL},
     {"parametric", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},

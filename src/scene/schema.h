@@ -35,6 +35,8 @@ typedef enum SchemaKind {
     KIND_TEXT,
     KIND_TRIANGLE,
     KIND_SMOOTH_TRIANGLE,
+    KIND_MESH,
+    KIND_MESH2,
     KIND_UNION,
     KIND_MERGE,
     KIND_INTERSECTION,

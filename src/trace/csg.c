@@ -18,6 +18,7 @@ typedef struct Crossing {
     double error;     // how far t may be off by rounding; before has_error how much it is at most
     double bound;     // of that, if has_bound
     uint32_t solid;   // within the CSG tree
+    uint32_t face;    // of a mesh, MESH_NO_FACE else
     uint8_t side;
     bool leaves;    // the solid's own inside, not minding PART_INVERSE
     bool is_film;   // changes nothing: of a flat leaf, or within one
@@ -31,6 +32,7 @@ typedef struct CsgTraversal {
     const ShapeTable *table;
     const CsgTree *csg;
     const Ray *ray;
+    RayStart start;
     double start_error;    // how far along the ray its start may be off its surface
     double enter;          // where the ray comes to the CSG tree's box
     double origin_size, direction_size; // sums of the ray's coordinates' sizes
@@ -42,6 +44,7 @@ typedef struct CsgTraversal {
     Ray *objects;          // the ray in each solid's space, but for planes
     Crossing *crossings;   // a heap by t, then by number
     uint32_t count;
+    MeshCursor *cursors;   // of its meshes
     bool is_over;          // nothing more of it can be seen
     double decided_from, decided_until; // where the ray is inside of all that decide, as far as it is known
 } CsgTraversal;
@@ -111,6 +114,17 @@ static uint32_t heap_pop(CsgTraversal *p)
     return p->count;
 }
 
+// Puts the crossing that was added last, behind the heap, into it.
+static void heap_push(CsgTraversal *p)
+{
+    Crossing *c = p->crossings;
+    for (uint32_t at = p->count - 1; at > 0 && crossing_is_before(&c[at], &c[(at - 1) / 2]); at = (at - 1) / 2) {
+        Crossing moved = c[at];
+        c[at] = c[(at - 1) / 2];
+        c[(at - 1) / 2] = moved;
+    }
+}
+
 // ---- what crosses the ray
 
 static double crossing_error(const CsgTraversal *p, Crossing *c)
@@ -155,6 +169,7 @@ static void traversal_add(CsgTraversal *p, uint32_t index, double t, double leng
     p->crossings[p->count++] = (Crossing){.t = t,
                                           .error = length,
                                           .solid = index,
+                                          .face = MESH_NO_FACE,
                                           .side = side,
                                           .leaves = leaves,
                                           .is_film = is_film,
@@ -166,7 +181,7 @@ static void traversal_flat(CsgTraversal *p, uint32_t index, RayStart start)
     const Solid *solid = traversal_solid(p, index);
     Ray *object = &p->objects[index];
     double t;
-    bool is_start = starts_on_part(start) && solid_equal(solid, &p->table->solids[part_index(start.shape)]);
+    bool is_start = starts_on_part(start) && solid_equal(solid, table_solid(p->table, start.shape));
     *object = solid_ray(solid, p->ray);
     if (is_start || !solid_flat_root(solid, object, &t) || !(t > 0.0)) {
         return;
@@ -219,11 +234,73 @@ static bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterva
     return is_inside && !is_film;
 }
 
+// ---- meshes: a line may cross one any number of times, so the next crossing of each is known, and no more
+
+// Whether the ray has passed a crossing with a face.
+static bool face_is_past(const CsgTraversal *p, uint32_t index, double t, uint32_t face)
+{
+    const Solid *solid = traversal_solid(p, index);
+    bool is_left = p->start.shape != SHAPE_NONE && shape_kind(p->start.shape) == SHAPE_FACE &&
+                   shape_index(p->start.shape) == solid->mesh.first_face + face;
+    return is_left ||
+           (starts_beside(p->table, p->start, solid) &&
+            !(t > mesh_crossing_error(solid, p->ray, &p->objects[index], t, face) + p->start_error));
+}
+
+// The next crossing behind the cursor that the ray has not passed. False: there is none.
+static bool traversal_find_face(CsgTraversal *p, uint32_t index, double *t)
+{
+    const Solid *solid = traversal_solid(p, index);
+    MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
+    while (mesh_next(solid, cursor, t)) {
+        if (!face_is_past(p, index, *t, cursor->face)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void traversal_next_face(CsgTraversal *p, uint32_t index)
+{
+    const Solid *solid = traversal_solid(p, index);
+    MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
+    double t;
+    if (!traversal_find_face(p, index, &t)) {
+        return;
+    }
+    bool is_film = solid_is_flat(solid);
+    traversal_add(p, index, t, (double)INFINITY, 0, !is_film && cursor->is_inside, is_film);
+    Crossing *added = &p->crossings[p->count - 1];
+    added->face = cursor->face;
+    added->error = added->bound = mesh_crossing_error(solid, p->ray, &p->objects[index], t, cursor->face);
+    added->has_error = added->has_bound = true;
+    cursor->is_inside = !cursor->is_inside;
+}
+
+// The crossings that are left tell by their number whether the ray starts inside.
+static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
+{
+    const Solid *solid = traversal_solid(p, index);
+    MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
+    bool is_inside = false;
+    double t;
+    p->objects[index] = solid_ray(solid, p->ray);
+    *cursor = (MeshCursor){.face = MESH_NO_FACE};
+    mesh_query_make(&cursor->query, &p->objects[index]);
+    while (!solid_is_flat(solid) && traversal_find_face(p, index, &t)) {
+        is_inside = !is_inside;
+    }
+    cursor->t = 0.0;
+    cursor->face = MESH_NO_FACE;
+    cursor->is_inside = p->is_inside[index] = is_inside;
+    traversal_next_face(p, index);
+}
+
 // Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later.
 static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
 {
     const Solid *solid = traversal_solid(p, index);
-    bool is_start = is_own && part_index(start.shape) == p->csg->first_solid + index;
+    bool is_start = is_own && table_part(p->table, start.shape) == p->csg->first_solid + index;
     bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
     bool inward = start.inward != solid->flips;
     RayInterval intervals[solid->interval_most];
@@ -305,7 +382,11 @@ static bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Forem
             seen = c;
         }
     }
-    if (seen) {
+    if (seen && seen->face != MESH_NO_FACE) {
+        uint32_t face = traversal_solid(p, seen->solid)->mesh.first_face + seen->face;
+        face_offer(p->table, shape_id(SHAPE_FACE, face), p->ray, seen->t,
+                   crossing_span(seen->t, crossing_error(p, seen), p->enter), first);
+    } else if (seen) {
         solid_offer(p->table, p->csg->first_solid + seen->solid, p->ray, seen->t,
                     crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
     }
@@ -332,7 +413,7 @@ static void traversal_set_states(CsgTraversal *p)
 // Those before it are asked about errors by nobody.
 static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
 {
-    if (!(t > limit)) {
+    if (!(t > limit) || (p->csg->mesh_count > 0 && !(t > limit * (1.0 + 2.0 * MESH_ERROR_MOST)))) {
         return false;
     }
     if (p->greatest_bound < 0.0) {
@@ -360,10 +441,12 @@ static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
 static void traversal_begin(CsgTraversal *p, RayStart start, double limit)
 {
     const CsgTree *csg = p->csg;
-    bool is_own = starts_on_part(start) && part_index(start.shape) - csg->first_solid < csg->solid_count;
+    bool is_own = starts_on_part(start) && table_part(p->table, start.shape) - csg->first_solid < csg->solid_count;
     for (uint32_t i = 0; i < csg->solid_count && !p->is_over; i++) {
         p->is_inside[i] = false;
-        if (solid_is_flat(traversal_solid(p, i))) {
+        if (RT_UNLIKELY(solid_is_mesh(traversal_solid(p, i)))) {
+            traversal_mesh_begin(p, i);
+        } else if (solid_is_flat(traversal_solid(p, i))) {
             traversal_flat(p, i, start);
         } else {
             traversal_solid_begin(p, i, start, is_own);
@@ -472,6 +555,30 @@ static bool plain_closest(CsgTraversal *p, Foremost *first)
     return true;
 }
 
+// In the place of a face's crossing, which was taken out of the heap and stands first among those from *begin to *end,
+// the next one of the mesh comes into the heap. False: there is no room for one more.
+static bool traversal_refill(CsgTraversal *p, uint32_t *begin, uint32_t *end)
+{
+    uint32_t index = p->crossings[*begin].solid;
+    if (p->crossings[*begin].face == MESH_NO_FACE) {
+        return true;
+    }
+    if (*end == p->csg->crossing_count) {
+        return false;
+    }
+    memmove(&p->crossings[*begin + 1], &p->crossings[*begin], (*end - *begin) * sizeof *p->crossings);
+    uint32_t before = p->count;
+    traversal_next_face(p, index);
+    if (p->count > before) {
+        double bound = p->crossings[before].bound;
+        p->greatest_bound = p->greatest_bound >= 0.0 && bound > p->greatest_bound ? bound : p->greatest_bound;
+        heap_push(p);
+    }
+    ++*begin;
+    ++*end;
+    return true;
+}
+
 void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
                  double enter, Foremost *first)
 {
@@ -482,9 +589,11 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
     bool is_inside[csg->solid_count];
     Crossing crossings[csg->crossing_count];
     Ray objects[csg->solid_count];
+    MeshCursor cursors[csg->mesh_count > 0 ? csg->mesh_count : 1];
     CsgTraversal p = {.table = table,
                       .csg = csg,
                       .ray = ray,
+                      .start = start,
                       .start_error = start_error,
                       .enter = enter,
                       .origin_size = vec3_sum_abs(ray->origin),
@@ -495,6 +604,7 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
                       .is_inside = is_inside,
                       .objects = objects,
                       .crossings = crossings,
+                      .cursors = cursors,
                       .decided_until = (double)INFINITY};
     traversal_begin(&p, start, first->limit);
     if (p.is_over) {
@@ -509,8 +619,10 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
         Crossing earliest = crossings[begin];
-        while (p.count > 0 && !crossing_is_apart(&p, &earliest, &crossings[0])) {
+        bool has_room = traversal_refill(&p, &begin, &end);
+        while (has_room && p.count > 0 && !crossing_is_apart(&p, &earliest, &crossings[0])) {
             begin = heap_pop(&p);
+            has_room = traversal_refill(&p, &begin, &end);
         }
         if (traversal_cross(&p, begin, end, first)) {
             return;

@@ -18,7 +18,7 @@ static bool solid_extent_of(const Solid *solid, Extent *extent)
 {
     Vec3 axes[3], middle = {0.0, 0.0, 0.0};
     if (solid_is_endless(solid) || solid->composite != NODE_NONE || (solid->flags & PART_INVERSE) ||
-        (solid->hidden & HIDDEN_CAMERA)) {
+        (solid->hidden & HIDDEN_CAMERA) || solid_is_mesh(solid)) {
         return false;
     }
     solid_classes[solid->kind].axes(solid, axes, &middle);
@@ -50,8 +50,8 @@ bool extent_get(const Geometry *g, uint32_t i, Extent *extent)
 
 uint32_t extent_place(const Geometry *g, ShapeId shape)
 {
-    bool is_part = shape_kind(shape) == SHAPE_PART;
-    return is_part ? g->spheres.block_count * SPHERE_BLOCK + part_index(shape) : shape_index(shape);
+    bool is_part = shape_is_on_part(shape);
+    return is_part ? g->spheres.block_count * SPHERE_BLOCK + table_part(&g->shapes, shape) : shape_index(shape);
 }
 
 void extent_of(const Geometry *g, ShapeId shape, Extent *extent)
@@ -67,9 +67,12 @@ bool extent_is_crossed(const Geometry *g, ShapeId shape, Ray ray)
         return vec3_length_squared(vec3_cross(offset, ray.direction)) <= ball.radius_squared &&
                vec3_dot(offset, ray.direction) > 0.0;
     }
-    const Solid *solid = &g->shapes.solids[part_index(shape)];
+    const Solid *solid = table_solid(&g->shapes, shape);
     Ray object = solid_ray(solid, &ray);
     double t;
+    if (solid_is_mesh(solid)) {
+        return mesh_is_crossed(solid, &object);
+    }
     if (solid_is_flat(solid)) {
         return solid_flat_root(solid, &object, &t) && t > 0.0;
     }
@@ -98,9 +101,10 @@ bool extent_is_dark(const Geometry *g, ShapeId shape, const Vec3 *normal, Ray ra
     return geometry_occluded(g, TRACE_ALL_FEATURES, ray, start, distance);
 }
 
-static bool is_same(ShapeId a, ShapeId b)
+static bool is_same(const Geometry *g, ShapeId a, ShapeId b)
 {
-    return shape_kind(a) == shape_kind(b) && (shape_kind(a) == SHAPE_PART ? part_index(a) == part_index(b) : a == b);
+    bool is_part = shape_is_on_part(a) && shape_is_on_part(b);
+    return is_part ? table_part(&g->shapes, a) == table_part(&g->shapes, b) : a == b;
 }
 
 bool extent_first(const Geometry *g, Ray ray, Hit *hit, Surface *surface)
@@ -120,5 +124,5 @@ ExtentSight extent_sight(const Geometry *g, ShapeId shape, Ray ray, MaterialInde
         return EXTENT_MISSED;
     }
     *before = surface.material;
-    return is_same(hit.shape, shape) ? EXTENT_SEEN : EXTENT_BEHIND;
+    return is_same(g, hit.shape, shape) ? EXTENT_SEEN : EXTENT_BEHIND;
 }

@@ -281,21 +281,21 @@ const char *geometry_isa_name(const Geometry *geometry)
 
 bool geometry_is_flat(const Geometry *geometry, ShapeId shape)
 {
-    return shape_kind(shape) == SHAPE_PART && solid_is_flat(&geometry->shapes.solids[part_index(shape)]);
+    return shape_is_on_part(shape) && solid_is_flat(table_solid(&geometry->shapes, shape));
 }
 
 bool geometry_flat_normal(const Geometry *geometry, ShapeId shape, Vec3 *normal)
 {
     bool is_flat = geometry_is_flat(geometry, shape);
     if (is_flat) {
-        const Solid *solid = &geometry->shapes.solids[part_index(shape)];
-        *normal = vec3_normalize(linear_normal(&solid->to_object, vec3(0.0, 0.0, 1.0)));
+        const Solid *solid = table_solid(&geometry->shapes, shape);
+        Vec3 own = solid_is_mesh(solid) ? mesh_plane(solid, shape) : vec3(0.0, 0.0, 1.0);
+        *normal = vec3_normalize(linear_normal(&solid->to_object, own));
     }
     return is_flat;
 }
 
 bool geometry_is_convex(const Geometry *geometry, ShapeId shape)
 {
-    return shape == SHAPE_NONE || shape_kind(shape) != SHAPE_PART ||
-           solid_is_convex(&geometry->shapes.solids[part_index(shape)]);
+    return shape == SHAPE_NONE || !shape_is_on_part(shape) || solid_is_convex(table_solid(&geometry->shapes, shape));
 }

@@ -32,7 +32,7 @@ RT_ALWAYS_INLINE StartSphere query_start_sphere(const Geometry *g, unsigned feat
     if (start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_SPHERE) {
         on.slot = shape_index(start.shape);
     } else if ((features & TRACE_PARTS) && starts_on_part(start)) {
-        const Solid *solid = &g->shapes.solids[part_index(start.shape)];
+        const Solid *solid = table_solid(&g->shapes, start.shape);
         on.slot = solid->twin;
         on.inward = start.inward != solid->flips;
     }
@@ -96,7 +96,7 @@ RT_ALWAYS_INLINE bool query_starts_beside_plane(const Geometry *g, unsigned feat
         return false;
     }
     if ((features & TRACE_PARTS) && starts_on_part(start)) {
-        return g->shapes.solids[part_index(start.shape)].family == FAMILY_STRAIGHT;
+        return table_solid(&g->shapes, start.shape)->family == FAMILY_STRAIGHT;
     }
     return shape_kind(start.shape) == SHAPE_PLANE;
 }
@@ -423,7 +423,7 @@ RT_ALWAYS_INLINE uint64_t query_not_on_parts(const TileSurfaces *from, uint64_t 
     uint64_t others = asked;
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
-        others &= ~((uint64_t)(shape_kind(from->shape[i]) == SHAPE_PART) << i);
+        others &= ~((uint64_t)shape_is_on_part(from->shape[i]) << i);
     }
     return others;
 }
@@ -536,6 +536,7 @@ RT_ALWAYS_INLINE bool geometry_is_same(const Geometry *g, ShapeId a, ShapeId b)
         return sphere_data_equal(&ball, &other);
     }
     case SHAPE_PLANE: return plane_equal(&g->planes[i].shape, &g->planes[j].shape);
+    case SHAPE_FACE: return i == j;
     default: return solid_equal(&g->shapes.solids[part_index(a)], &g->shapes.solids[part_index(b)]);
     }
 }
@@ -557,7 +558,7 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
         return (Surface){plane_point(&plane->shape, ray, hit.t), plane->shape.normal, plane->info.material,
                          plane->info.order, 0};
     }
-    if ((features & TRACE_PARTS) && kind == SHAPE_PART) {
+    if ((features & TRACE_PARTS) && shape_is_on_part(hit.shape)) {
         return shapes_surface(&g->shapes, &ray, &hit);
     }
     SphereData ball = sphere_table_ball(&g->spheres, index);

@@ -9,6 +9,7 @@
 #define TRACE_SHAPES_H
 
 #include "trace/bvh.h"
+#include "trace/mesh.h"
 #include "trace/solid.h"
 #include "trace/spheres.h"
 #include "trace/trace.h"
@@ -30,7 +31,7 @@ static inline uint8_t part_side(ShapeId shape)
 
 static inline bool starts_on_part(RayStart start)
 {
-    return start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_PART;
+    return start.shape != SHAPE_NONE && shape_is_on_part(start.shape);
 }
 
 // A node of a composite's tree; see scene.h.
@@ -53,6 +54,7 @@ typedef struct CsgTree {
     bool is_plain; // all of a few convex solids in one node
     uint32_t order;
     uint32_t seen_count; // its solids from there on only clip others
+    uint32_t mesh_count;
 } CsgTree;
 
 // What stands for itself: a solid, or a CSG tree when the number is not below solid_count; of a ball with a bit that
@@ -83,7 +85,22 @@ struct ShapeTable {
     Pages item_pages, box_pages;
     uint32_t unbounded_count, bounded_count;
     Bvh tree; // of the bounded ones; its leaves are runs of their items
+    MeshTable **meshes;      // the different ones; owned
+    uint32_t *mesh_solids;   // the solids that are meshes, in their order, which is that of their faces' numbers
+    uint32_t mesh_count, mesh_solid_count;
 };
+
+// The solid that a shape is on which is on a part.
+uint32_t table_face_solid(const ShapeTable *table, ShapeId face);
+static inline uint32_t table_part(const ShapeTable *table, ShapeId shape)
+{
+    return RT_LIKELY(shape_kind(shape) == SHAPE_PART) ? part_index(shape) : table_face_solid(table, shape);
+}
+
+static inline const Solid *table_solid(const ShapeTable *table, ShapeId shape)
+{
+    return &table->solids[table_part(table, shape)];
+}
 
 // Takes over the scene's parts and composites, lengths multiplied by 2^-exponent. False when out of memory; the table
 // may then be given to shapes_fini.
@@ -99,11 +116,17 @@ static inline bool starts_beside(const ShapeTable *table, RayStart start, const 
         return false;
     }
     ShapeKind kind = shape_kind(start.shape);
-    uint8_t family = kind == SHAPE_PART    ? table->solids[part_index(start.shape)].family
-                     : kind == SHAPE_PLANE ? FAMILY_STRAIGHT
-                                           : FAMILY_ROUND;
+    uint8_t family = kind == SHAPE_PART     ? table->solids[part_index(start.shape)].family
+                     : kind == SHAPE_SPHERE ? FAMILY_ROUND
+                                            : FAMILY_STRAIGHT;
     return family == solid->family;
 }
+
+// The material of a shape on a part.
+MaterialIndex shapes_material(const ShapeTable *table, ShapeId shape);
+
+// How far a crossing's t may be off by rounding, `object` being the ray in the space of the shape's solid.
+double shapes_error(const ShapeTable *table, const Ray *ray, const Ray *object, double t, ShapeId shape);
 
 // How far along the ray its start may be off the part that it starts on.
 double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart start);
@@ -123,6 +146,9 @@ RT_ALWAYS_INLINE RootSpan crossing_span(double t, double error, double enter)
 }
 
 // Offers a crossing of a side of a solid, into it or out of it.
+// The same of a face of a mesh, `shape`.
+void face_offer(const ShapeTable *table, ShapeId shape, const Ray *ray, double t, RootSpan span, Foremost *first);
+
 void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, RootSpan span, uint8_t side,
                  bool leaves, Foremost *first);
 

@@ -162,7 +162,7 @@ static uint64_t shapes_occluded_surfaces(const ShapeTable *table, const TileSurf
         unsigned count = 0;
         rest &= ~members;
         own.start = (RayStart){shape, false, HIDDEN_SHADOW};
-        own.left = starts_on_part(own.start) ? &table->solids[part_index(shape)] : NULL;
+        own.left = starts_on_part(own.start) ? table_solid(table, shape) : NULL;
         for (uint64_t each = members; each; each &= each - 1) {
             own.start_error[count++] = start_error[__builtin_ctzll(each)];
         }

@@ -10,7 +10,7 @@
 #include "trace/shapes.h"
 
 enum {
-    LOOSE_MOST = 8, // items that are asked for each ray for being far from all others
+    LOOSE_MOST = 8,  // items that are asked for each ray for being far from all others
     FAR_RATIO = 512, // how many times as far as the others, of a tree whose numbers have 2^22
 };
 
@@ -27,8 +27,8 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
         .kind = (uint8_t)part->kind,
         .family = (uint8_t)primitive->family,
         .traits = (uint8_t)((primitive->interval_count == 0 ? SOLID_FLAT : 0) |
-                            (primitive->interval_count <= 1 ? SOLID_CONVEX : 0) |
-                            (primitive->is_sized ? SOLID_SIZED : 0)),
+                            (primitive->interval_count <= 1 && !primitive->is_mesh ? SOLID_CONVEX : 0) |
+                            (primitive->is_sized ? SOLID_SIZED : 0) | (primitive->is_mesh ? SOLID_MESH : 0)),
         .flags = part->flags,
         .hidden = part->hidden,
         .flips = part->flags & PART_INVERSE,
@@ -158,7 +158,12 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
         solid->composite = index;
         csg->is_plain = csg->is_plain && solid_is_convex(solid) && !solid_is_flat(solid);
-        csg->crossing_count += solid_is_flat(solid) ? 2 : 2 * solid->interval_most;
+        csg->crossing_count += solid_is_mesh(solid)   ? MESH_CROSSINGS
+                               : solid_is_flat(solid) ? 2
+                                                      : 2 * solid->interval_most;
+        if (solid_is_mesh(solid)) {
+            solid->mesh.cursor = csg->mesh_count++;
+        }
         solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid_is_convex(solid);
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
@@ -176,6 +181,54 @@ static void nodes_init(ShapeTable *table, const Scene *scene)
         table->nodes[i] =
             (TreeNode){node->op, node->is_inverse, node->parent, node->child_count, is_any ? 1 : node->child_count, 0};
     }
+}
+
+// ---- meshes
+
+// The table of a mesh, built when it is met first; NULL when out of memory.
+static const MeshTable *mesh_table(ShapeTable *table, const Mesh *mesh, int threads)
+{
+    for (uint32_t i = table->mesh_count; i-- > 0;) { // copies mostly follow each other
+        if (table->meshes[i]->mesh == mesh) {
+            return table->meshes[i];
+        }
+    }
+    MeshTable *made = mesh_table_new(mesh, threads);
+    if (made) {
+        table->meshes[table->mesh_count++] = made;
+    }
+    return made;
+}
+
+// What meshes have beside numbers.
+static bool meshes_init(ShapeTable *table, const Scene *scene, int threads)
+{
+    uint64_t faces = 0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < table->solid_count; i++) {
+        count += primitive_class(scene->parts.items[i].kind)->is_mesh;
+    }
+    if (count == 0) {
+        return true;
+    }
+    table->meshes = calloc(count, sizeof *table->meshes);
+    table->mesh_solids = calloc(count, sizeof *table->mesh_solids);
+    for (uint32_t i = 0; table->meshes && table->mesh_solids && i < table->solid_count; i++) {
+        const Part *part = &scene->parts.items[i];
+        Solid *solid = &table->solids[i];
+        if (!solid_is_mesh(solid)) {
+            continue;
+        }
+        solid->mesh.table = mesh_table(table, part->mesh.mesh, threads);
+        if (!solid->mesh.table || faces + part->mesh.mesh->face_count >= 1u << SHAPE_INDEX_BITS) {
+            return false;
+        }
+        solid->mesh.materials = scene->face_materials.items + part->mesh.materials;
+        solid->mesh.first_face = (uint32_t)faces;
+        faces += part->mesh.mesh->face_count;
+        table->mesh_solids[table->mesh_solid_count++] = i;
+    }
+    return table->mesh_solid_count == count;
 }
 
 // ---- the tree
@@ -359,11 +412,12 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
             table->solids[i] = solid_of(&scene->parts.items[i], exponent, down, up);
             work.solids[i] = part_bounds(&scene->parts.items[i], exponent, down);
         }
+        done = meshes_init(table, scene, threads);
         nodes_init(table, scene);
         for (uint32_t i = 0; i < table->csg_count; i++) {
             csg_init(table, &scene->composites.items[i], i);
         }
-        done = items_init(table, &work, threads);
+        done = done && items_init(table, &work, threads);
     }
     free(work.nodes);
     pages_give(&work.solid_pages);
@@ -376,6 +430,11 @@ void shapes_fini(ShapeTable *table)
 {
     free(table->nodes);
     free(table->csg_trees);
+    for (uint32_t i = 0; i < table->mesh_count; i++) {
+        mesh_table_free(table->meshes[i]);
+    }
+    free(table->meshes);
+    free(table->mesh_solids);
     pages_give(&table->solid_pages);
     pages_give(&table->item_pages);
     pages_give(&table->box_pages);
@@ -385,7 +444,11 @@ void shapes_fini(ShapeTable *table)
 
 size_t shapes_bytes(const ShapeTable *table)
 {
-    return table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
+    size_t meshes = 0;
+    for (uint32_t i = 0; i < table->mesh_count; i++) {
+        meshes += mesh_table_bytes(table->meshes[i]);
+    }
+    return meshes + table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
            table->csg_count * sizeof *table->csg_trees +
            (table->unbounded_count + table->bounded_count) * sizeof *table->items +
            table->bounded_count * sizeof *table->boxes + table->tree.node_count * sizeof *table->tree.nodes;

@@ -84,7 +84,7 @@ static void tile_ray_take(ShapesTile *of, unsigned i, Ray *ray, ShapeQuery *q, F
 {
     ShapeId met = (ShapeId)of->shape[i];
     const TileForemost *all = of->first;
-    const Solid *part = met != SHAPE_NONE && shape_kind(met) == SHAPE_PART ? &of->table->solids[part_index(met)] : NULL;
+    const Solid *part = met != SHAPE_NONE && shape_is_on_part(met) ? table_solid(of->table, met) : NULL;
     *ray = (Ray){of->tile->origin, lane_get(of->tile->direction, i)};
     query_start(q, of->table, ray, RAY_START_CAMERA, 0.0, false);
     q->bounded = of->bounded >> i & 1 ? part : NULL;

@@ -374,6 +374,8 @@ const SolidClass solid_classes[PART_KINDS] = {
                       .point = flat_point,
                       .axes = box_axes,
                       .across = {3}},
+    [PART_MESH] = {.axes = box_axes}, // all else is in trace/mesh.h
+    [PART_MESH_SOLID] = {.axes = box_axes},
 };
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)
@@ -465,7 +467,11 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
         PlaneShape plane = {solid->data[0], solid->data[1].x};
         return plane_crossing_error(&plane, *ray, t);
     }
-    Vec3 n = solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side);
+    return solid_plane_error(solid, ray, object, t, solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side));
+}
+
+double solid_plane_error(const Solid *solid, const Ray *ray, const Ray *object, double t, Vec3 n)
+{
     double reach = normal_reach(solid, n, ray, t);
     return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
 }

@@ -20,7 +20,19 @@ typedef enum SolidTrait {
     SOLID_FLAT = 1,   // it has no inside
     SOLID_CONVEX = 2, // a ray that leaves it outward does not meet it again; nor does one that leaves a flat one
     SOLID_SIZED = 4,  // as in PrimitiveClass
+    SOLID_MESH = 8,   // it is asked by trace/mesh.h
 } SolidTrait;
+
+typedef struct MeshTable MeshTable;
+
+// What a mesh has in the place of numbers.
+typedef struct SolidMesh {
+    Vec3 low, high;
+    const MeshTable *table;
+    const MaterialIndex *materials; // of the faces' textures
+    uint32_t first_face;            // the number of its first one, as a ShapeId has it
+    uint32_t cursor;                // in a composite: its place among the meshes
+} SolidMesh;
 
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
 // the origin.
@@ -48,6 +60,7 @@ typedef struct Solid {
             Vec3 fixed[2];
             Numbers list;
         };
+        SolidMesh mesh;
     };
 } Solid;
 
@@ -59,6 +72,11 @@ RT_ALWAYS_INLINE bool solid_is_flat(const Solid *solid)
 static inline bool solid_is_endless(const Solid *solid)
 {
     return solid->kind == PART_PLANE || (solid->kind == PART_POLYNOMIAL && !polynomial_is_bounded(solid->list.items));
+}
+
+static inline bool solid_is_mesh(const Solid *solid)
+{
+    return solid->traits & SOLID_MESH;
 }
 
 // How rays meet a kind of part; its numbers are those of the solid, its points in the solid's own space.
@@ -124,6 +142,9 @@ void solid_measure(Solid *solid);
 
 // How far a crossing's t may be off by rounding; docs/numerics.md has the bound. Infinite along the surface.
 double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side);
+
+// The same of a plane of any normal in the solid's own space.
+double solid_plane_error(const Solid *solid, const Ray *ray, const Ray *object, double t, Vec3 n);
 
 // What is at least that, for less work; `span` is |o| + t |d| of the ray, each |v| the sum of its coordinates' sizes. It
 // may be NaN.

@@ -31,10 +31,11 @@ typedef enum TraceFeature {
 } TraceFeature;
 
 // A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below. A part's index is
-// followed by the side of it that was met, in PART_SIDE_BITS.
+// followed by the side of it that was met, in PART_SIDE_BITS. Of a mesh a face is a shape: those of all parts that are
+// meshes are counted one after the other.
 typedef uint32_t ShapeId;
 enum { SHAPE_INDEX_BITS = 30, PART_SIDE_BITS = 3 };
-typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_PLANE, SHAPE_PART } ShapeKind;
+typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_PLANE, SHAPE_PART, SHAPE_FACE } ShapeKind;
 #define SHAPE_NONE UINT32_MAX
 #define NO_BLOCKER UINT32_MAX // see geometry_occluded_again
 
@@ -46,6 +47,12 @@ static inline ShapeId shape_id(ShapeKind kind, uint32_t index)
 static inline ShapeKind shape_kind(ShapeId id)
 {
     return (ShapeKind)(id >> SHAPE_INDEX_BITS);
+}
+
+// Whether it is on a part; not of SHAPE_NONE.
+static inline bool shape_is_on_part(ShapeId id)
+{
+    return shape_kind(id) >= SHAPE_PART;
 }
 
 static inline uint32_t shape_index(ShapeId id)

@@ -271,6 +271,22 @@ bool extent_is_stretched(SchemaKind kind, const void *object);
 // Tells of a transform that is about to be applied; `keeps_spheres`: it moves, turns or scales evenly.
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span) RT_MUST_CHECK;
 
+// mesh_corners.c
+// What a face is drawn with that has other textures at its corners, and what it refers to.
+typedef struct CornerBlend {
+    TextureDesc texture;
+    PatternMap map;
+    PatternEntry entries[3];
+} CornerBlend;
+// Whether three textures may be those of a face's corners.
+bool mesh_textures_blend(const TextureDesc *const corners[3]);
+void mesh_blend(const MeshDesc *mesh, const MeshCorners *corners, CornerBlend *blend);
+
+// mesh.c
+bool mesh_body(Block *block) RT_MUST_CHECK;
+bool mesh2_body(Block *block) RT_MUST_CHECK;
+bool mesh_close(Block *block) RT_MUST_CHECK;
+
 // object.c
 bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object
@@ -307,12 +323,15 @@ typedef struct ShapeClass {
     bool (*close)(Block *block); // at the closing brace; false after a fault; NULL: `settle` is enough
     // Kind, numbers and map, before all transforms. Why there is nothing to draw, or NULL. Of a plane NULL.
     const char *(*form)(const void *object, Part *part);
+    bool (*has_inside)(const void *object); // NULL: as `is_flat` says
     bool (*holds)(const void *object, Vec3 point, bool is_turned); // inside of it, or of it turned; NULL: not to be asked
     bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself; it may be infinite
 } ShapeClass;
 
 // Of a kind that is no shape a row of nothing.
 const ShapeClass *shape_class(SchemaKind kind);
+// Whether a shape has no inside.
+bool shape_is_flat(SchemaKind kind, const void *object);
 
 // blob.c
 bool blob_part_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;

@@ -40,7 +40,7 @@ bool clip_body(Block *block)
 static bool is_plain_solid(SchemaKind kind, const void *object)
 {
     const ObjectPart *part = object;
-    if (kind == KIND_LIGHT_SOURCE || shape_class(kind)->is_flat || part->texture) {
+    if (kind == KIND_LIGHT_SOURCE || shape_is_flat(kind, object) || part->texture) {
         return false;
     }
     const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;

@@ -51,9 +51,9 @@ static Extent turned(const Extent *extent, const Transform *transform)
 {
     double least[3] = {boundless, boundless, boundless}, greatest[3] = {-boundless, -boundless, -boundless};
     for (unsigned corner = 0; corner < 8; corner++) {
-        Vec3 point = vec3(corner & 1 ? upper(extent, 0) : extent->corner[0],
-                          corner & 2 ? upper(extent, 1) : extent->corner[1],
-                          corner & 4 ? upper(extent, 2) : extent->corner[2]);
+        Vec3 point =
+            vec3(corner & 1 ? upper(extent, 0) : extent->corner[0], corner & 2 ? upper(extent, 1) : extent->corner[1],
+                 corner & 4 ? upper(extent, 2) : extent->corner[2]);
         Vec3 image = transform_point(transform, point);
         const double v[3] = {image.x, image.y, image.z};
         for (unsigned i = 0; i < 3; i++) {
@@ -304,8 +304,8 @@ bool extent_reaches_out(SchemaKind kind, const void *object, bool is_member)
     }
     // A member that has no end may leave the whole without one.
     // What cuts a union leaves the surfaces that its members have in one another, but one surface of the cut for all.
-    bool does = kind == KIND_DISC || kind == KIND_UNION || part->clips || part->is_inverse ||
-                (is_member && is_endless(kind, object));
+    bool does = kind == KIND_DISC || kind == KIND_UNION || kind == KIND_MESH || kind == KIND_MESH2 || part->clips ||
+                part->is_inverse || (is_member && is_endless(kind, object));
     const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
     for (; member && !does; member = member->next) {
         does = extent_reaches_out(member->kind, member->object, true);
@@ -317,8 +317,7 @@ bool extent_box(const BoxOwner *owner, Vec3 *low, Vec3 *high)
 {
     const ObjectPart *part = owner->object;
     Clip placed = {.object = owner->object, .kind = owner->kind, .transform = owner->outer};
-    bool is_plain =
-        owner->kind != KIND_PLANE && !part->clips && !part->bounds && !transform_is_identity(&owner->outer);
+    bool is_plain = owner->kind != KIND_PLANE && !part->clips && !part->bounds && !transform_is_identity(&owner->outer);
     Extent extent = is_plain ? moved_extent(&placed) : object_extent(owner->kind, owner->object);
     extent = is_plain || is_boundless(&extent) ? extent : turned(&extent, &owner->outer);
     *low = vec3(extent.corner[0], extent.corner[1], extent.corner[2]);

@@ -165,6 +165,30 @@ bool part_place_plain(Eval *ev, Part *part, const Material *material, Span span)
             eval_no_memory(ev, span));
 }
 
+// The materials of a mesh's own textures, which move with it.
+static bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement *at, Part *part)
+{
+    Scene *scene = ev->scene;
+    Span span = mesh->part.span;
+    part->mesh.materials = scene->face_materials.count;
+    for (uint32_t i = 0; i < mesh->mesh->texture_count; i++) {
+        MaterialIndex material;
+        CornerBlend blend;
+        const TextureDesc *texture = i < mesh->single_count ? mesh->singles[i] : &blend.texture;
+        if (i >= mesh->single_count) {
+            mesh_blend(mesh, &mesh->corners[i - mesh->single_count], &blend);
+        }
+        if (!material_place(ev, texture, &at->outer, at->interior, at->is_hollow, span, &material)) {
+            return false;
+        }
+        ev->clear_count += !texture_hides_all(texture);
+        if (!ARRAY_PUSH(&scene->face_materials, material)) {
+            return eval_no_memory(ev, span);
+        }
+    }
+    return memory_suffices(ev, span);
+}
+
 static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, const Placement *inner, const Part *part)
 {
     MaterialIndex material;
@@ -181,6 +205,10 @@ static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, cons
         alone.material = material;
         alone.hidden = inner->hidden;
         alone.flags |= common->is_inverse ? PART_INVERSE : 0;
+        if (primitive_class(part->kind)->is_mesh &&
+            !place_face_materials(ev, (const MeshDesc *)common, inner, &alone)) {
+            return false;
+        }
         is_added = scene_add_part(scene, &alone);
     }
     return is_added || eval_no_memory(ev, span);
@@ -294,7 +322,9 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     part.body = branch->body;
     part.flags |= (common->is_inverse != branch->is_inverse ? PART_INVERSE : 0) | (branch->is_unseen ? PART_UNSEEN : 0);
     if (!may_add(ev, common->span) ||
-        (!branch->is_unseen && !place_material(ev, around, branch->body, common->span, &part.material))) {
+        (!branch->is_unseen && !place_material(ev, around, branch->body, common->span, &part.material)) ||
+        (!branch->is_unseen && primitive_class(part.kind)->is_mesh &&
+         !place_face_materials(ev, object, around, &part))) {
         return false;
     }
     return scene_add_leaf(ev->scene, &part) || eval_no_memory(ev, common->span);

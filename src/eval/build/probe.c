@@ -86,7 +86,8 @@ static bool holds(SchemaKind kind, const void *object, Vec3 point, bool is_turne
 static bool is_solid(SchemaKind kind, const void *object)
 {
     const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
-    bool is_none = !object_is_group(kind) && !shape_class(kind)->holds;
+    const ShapeClass *shape = shape_class(kind);
+    bool is_none = !object_is_group(kind) && (!shape->holds || (shape->has_inside && !shape->has_inside(object)));
     for (; member != NULL && !is_none; member = member->next) {
         is_none = !is_solid(member->kind, member->object);
     }

@@ -309,6 +309,34 @@ static const char *smooth_triangle_form(const void *object, Part *part)
     return part_make_smooth_triangle(part, triangle->corners, triangle->normals);
 }
 
+// ---- meshes
+
+static const char *mesh_form(const void *object, Part *part)
+{
+    const Mesh *mesh = ((const MeshDesc *)object)->mesh;
+    part->kind = mesh->has_inside ? PART_MESH_SOLID : PART_MESH;
+    part->mesh = (PartMesh){mesh->low, mesh->high, mesh, 0};
+    return NULL;
+}
+
+static bool mesh_has_inside(const void *object)
+{
+    return ((const MeshDesc *)object)->mesh->has_inside;
+}
+
+static bool mesh_has(const void *object, Vec3 p, bool is_turned)
+{
+    return mesh_has_inside(object) && mesh_holds(((const MeshDesc *)object)->mesh, p) != is_turned;
+}
+
+static bool mesh_box(const void *object, OwnBox *own)
+{
+    const Mesh *mesh = ((const MeshDesc *)object)->mesh;
+    own->low = mesh->low;
+    own->high = mesh->high;
+    return false;
+}
+
 // ---- the table
 
 static const ShapeClass classes[KIND_COUNT] = {
@@ -345,9 +373,17 @@ static const ShapeClass classes[KIND_COUNT] = {
     [KIND_SMOOTH_TRIANGLE] = {.is_flat = true,
                               .form = smooth_triangle_form,
                               .corners_at = offsetof(SmoothTriangleDesc, corners)},
+    [KIND_MESH] = {.form = mesh_form, .has_inside = mesh_has_inside, .holds = mesh_has, .box = mesh_box},
+    [KIND_MESH2] = {.form = mesh_form, .has_inside = mesh_has_inside, .holds = mesh_has, .box = mesh_box},
 };
 
 const ShapeClass *shape_class(SchemaKind kind)
 {
     return &classes[kind];
+}
+
+bool shape_is_flat(SchemaKind kind, const void *object)
+{
+    const ShapeClass *shape = shape_class(kind);
+    return shape->has_inside ? !shape->has_inside(object) : shape->is_flat;
 }

@@ -72,6 +72,7 @@ static bool may_change(Eval *ev, const AstNode *first, Symbol name, unsigned cal
         bool does;
         switch (node->kind) {
         case AST_NUMBER:
+        case AST_PACKED:
         case AST_NAME: continue;
         case AST_INCLUDE: return true;
         case AST_DECLARE:

@@ -159,7 +159,8 @@ static void walk_declare(Eval *ev, const AstNode *node)
 static void walk(Eval *ev, const AstNode *node)
 {
     switch (node->kind) {
-    case AST_NUMBER: return;
+    case AST_NUMBER:
+    case AST_PACKED: return;
     case AST_NAME: use(ev, node->symbol); return;
     case AST_CALL: use(ev, node->symbol); break;
     case AST_DECLARE: walk_declare(ev, node); return;

@@ -128,7 +128,7 @@ static void follow_part(Follower *follower, LoggedRay *ray, const StackedRay *no
     const Solid *solid = &follower->p->geometry->shapes.solids[index];
     uint64_t source = follower->p->scene->parts.items[index].source;
     bool is_cut = solid->node != NODE_NONE, is_round = part_map_is_round(solid->to_world.m);
-    bool is_start = !is_cut && starts_on_part(now->start) && part_index(now->start.shape) == index;
+    bool is_start = !is_cut && starts_on_part(now->start) && table_part(&follower->p->geometry->shapes, now->start.shape) == index;
     double radius = fabs(solid->to_world.m[0][0]);
     SphereData ball = is_round ? (SphereData){solid->centre, radius * radius} : UNIT_SPHERE;
     StartSphere on = {0, now->start.inward != solid->flips,
@@ -217,13 +217,15 @@ static void name_shape(const Follower *follower, const ShadingPoint *at, const R
         SOURCE_BY_ORDER(scene->planes, at->order, out->source);
         error = plane_error(&g->planes[index].shape, ray, t);
         break;
+    case SHAPE_FACE:
     case SHAPE_PART: {
-        const Solid *solid = &g->shapes.solids[part_index(at->shape)];
+        const Solid *solid = table_solid(&g->shapes, at->shape);
         Ray object = solid_ray(solid, ray);
-        const Part *part = &scene->parts.items[part_index(at->shape)];
+        const Part *part = &scene->parts.items[table_part(&g->shapes, at->shape)];
         out->shape = part_name(part);
         out->source = part->source;
-        error = solid->kind == PART_SPHERE ? solid_ball_error(solid, ray, &object, t)
+        error = solid_is_mesh(solid) ? shapes_error(&g->shapes, ray, &object, t, at->shape)
+                : solid->kind == PART_SPHERE ? solid_ball_error(solid, ray, &object, t)
                                            : solid_crossing_error(solid, ray, &object, t, part_side(at->shape));
         break;
     }

@@ -1,0 +1,207 @@
+// The printable form of meshes: `mesh2` with its lists, once for all parts that share it.
+//
+// A mesh whose faces have textures of their own is written where it stands, since they are those of the part. Their
+// patterns are in the scene, and a mesh's in its own space: what the part's matrix does to them is taken back.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/corners.h"
+#include "scene/dump.h"
+
+static void dump_floats(const char *word, const float (*vectors)[3], uint32_t count, TextBuffer *out)
+{
+    text_printf(out, "  %s { %lu", word, (unsigned long)count);
+    for (uint32_t i = 0; i < count; i++) {
+        text_append(out, i % 4 == 0 ? ",\n    " : ", ");
+        dump_numbers(out, (double[]){(double)vectors[i][0], (double)vectors[i][1], (double)vectors[i][2]}, 3);
+    }
+    text_append(out, " }\n");
+}
+
+static void dump_indices(const char *word, const uint32_t (*indices)[3], uint32_t count, TextBuffer *out)
+{
+    text_printf(out, "  %s { %lu", word, (unsigned long)count);
+    for (uint32_t i = 0; i < count; i++) {
+        text_printf(out, "%s<%lu, %lu, %lu>", i % 4 == 0 ? ",\n    " : ", ", (unsigned long)indices[i][0],
+                    (unsigned long)indices[i][1], (unsigned long)indices[i][2]);
+    }
+    text_append(out, " }\n");
+}
+
+// The name of the texture of a material.
+static void dump_name(MaterialIndex material, const Scene *scene, TextBuffer *out)
+{
+    if (material & MATERIAL_COMPOUND) {
+        text_printf(out, "T%lu", (unsigned long)scene->compounds.items[material & ~MATERIAL_COMPOUND].texture + 1);
+    } else {
+        text_printf(out, "M%lu", (unsigned long)material + 1);
+    }
+}
+
+// The texture of a face's corners that a material is; NULL: it is no such.
+static const Texture *corners_of(const Scene *scene, MaterialIndex material)
+{
+    const Texture *texture = material & MATERIAL_COMPOUND
+                                 ? &scene->textures.items[scene->compounds.items[material & ~MATERIAL_COMPOUND].texture]
+                                 : NULL;
+    return texture && texture_is_of_corners(texture) ? texture : NULL;
+}
+
+// How many of a mesh's textures are none of corners: the first ones.
+static uint32_t count_single(const Scene *scene, const Part *part)
+{
+    uint32_t count = 0;
+    while (count < part->mesh.mesh->texture_count &&
+           !corners_of(scene, scene->face_materials.items[part->mesh.materials + count])) {
+        count++;
+    }
+    return count;
+}
+
+static void dump_face_texture(const Scene *scene, MaterialIndex material, const Transform *back, TextBuffer *out)
+{
+    const Texture *corners = corners_of(scene, material);
+    if (corners) {
+        const TextureEntry *entries = scene->texture_entries.items;
+        for (uint32_t at = corners->entries; at != RECORD_NONE; at = entries[at].next) {
+            text_printf(out, "    texture { T%lu }\n", (unsigned long)entries[at].texture + 1);
+        }
+        return;
+    }
+    text_append(out, "    texture { ");
+    dump_name(material, scene, out);
+    if ((material & MATERIAL_COMPOUND) && !transform_is_identity(back)) {
+        text_append(out, " matrix ");
+        dump_numbers(out, &back->m[0][0], 12);
+    }
+    text_append(out, " }\n");
+}
+
+// Behind a face: its texture, or those of its corners.
+static void dump_face_number(uint32_t texture, uint32_t single, TextBuffer *out)
+{
+    if (texture < single) {
+        text_printf(out, ", %lu", (unsigned long)texture);
+    } else {
+        unsigned long first = single + 3 * (texture - single);
+        text_printf(out, ", %lu, %lu, %lu", first, first + 1, first + 2);
+    }
+}
+
+static bool has_flat_face(const Mesh *mesh)
+{
+    bool has = false;
+    for (uint32_t i = 0; i < mesh->face_count && !has; i++) {
+        has = !mesh_face_is_smooth(mesh, i);
+    }
+    return has;
+}
+
+static void dump_triangle_texture(const Scene *scene, MaterialIndex material, TextBuffer *out)
+{
+    const Texture *corners = corners_of(scene, material);
+    const TextureEntry *entries = scene->texture_entries.items;
+    text_append(out, corners ? " texture_list {" : " texture { ");
+    for (uint32_t at = corners ? corners->entries : RECORD_NONE; at != RECORD_NONE; at = entries[at].next) {
+        text_printf(out, " T%lu", (unsigned long)entries[at].texture + 1);
+    }
+    if (!corners) {
+        dump_name(material, scene, out);
+    }
+    text_append(out, " }");
+}
+
+// A mesh with flat faces between smooth ones has no form as mesh2.
+static void dump_triangles(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
+{
+    text_append(out, "mesh {\n");
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        bool is_smooth = mesh_face_is_smooth(mesh, face);
+        text_append(out, is_smooth ? "  smooth_triangle { " : "  triangle { ");
+        for (int i = 0; i < 3; i++) {
+            dump_vector(out, i ? ", " : "", mesh_corner(mesh, face, i));
+            if (is_smooth) {
+                dump_vector(out, ", ", mesh_vector(mesh->normals[mesh->face_normals[face][i]]));
+            }
+        }
+        if (part && mesh->face_textures && mesh->face_textures[face]) {
+            dump_triangle_texture(scene, scene->face_materials.items[part->mesh.materials + mesh->face_textures[face] - 1],
+                                  out);
+        }
+        text_append(out, " }\n");
+    }
+}
+
+static void dump_faces(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
+{
+    if (!part || !mesh->face_textures) {
+        dump_indices("face_indices", (const uint32_t(*)[3])mesh->faces, mesh->face_count, out);
+        return;
+    }
+    uint32_t single = count_single(scene, part);
+    text_printf(out, "  face_indices { %lu", (unsigned long)mesh->face_count);
+    for (uint32_t i = 0; i < mesh->face_count; i++) {
+        const uint32_t *face = mesh->faces[i];
+        text_printf(out, ",\n    <%lu, %lu, %lu>", (unsigned long)face[0], (unsigned long)face[1],
+                    (unsigned long)face[2]);
+        if (mesh->face_textures[i]) {
+            dump_face_number(mesh->face_textures[i] - 1, single, out);
+        }
+    }
+    text_append(out, " }\n");
+}
+
+static void dump_lists(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
+{
+    text_append(out, "mesh2 {\n");
+    dump_floats("vertex_vectors", (const float(*)[3])mesh->vertices, mesh->vertex_count, out);
+    if (mesh->normal_count > 0) {
+        dump_floats("normal_vectors", (const float(*)[3])mesh->normals, mesh->normal_count, out);
+    }
+    if (part && mesh->texture_count > 0) {
+        uint32_t single = count_single(scene, part);
+        text_printf(out, "  texture_list { %lu,\n", (unsigned long)single + 3 * (mesh->texture_count - single));
+        for (uint32_t i = 0; i < mesh->texture_count; i++) {
+            dump_face_texture(scene, scene->face_materials.items[part->mesh.materials + i], &part->to_object, out);
+        }
+        text_append(out, "  }\n");
+    }
+    dump_faces(scene, part, mesh, out);
+    if (mesh->face_normals && mesh->face_normals != mesh->faces) {
+        dump_indices("normal_indices", (const uint32_t(*)[3])mesh->face_normals, mesh->face_count, out);
+    }
+}
+
+static void dump_mesh(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
+{
+    bool is_mixed = mesh->face_normals && has_flat_face(mesh);
+    if (is_mixed) {
+        dump_triangles(scene, part, mesh, out);
+    } else {
+        dump_lists(scene, part, mesh, out);
+    }
+    if (mesh->has_inside) {
+        dump_vector(out, "  inside_vector ", mesh->inside_vector);
+        text_append(out, "\n");
+    }
+}
+
+void dump_meshes(const Scene *scene, TextBuffer *out)
+{
+    for (size_t i = 0; i < scene->meshes.count; i++) {
+        const Mesh *mesh = scene->meshes.items[i];
+        if (!mesh->face_textures) {
+            text_printf(out, "#declare Mesh%lu = ", (unsigned long)mesh->number + 1);
+            dump_mesh(scene, NULL, mesh, out);
+            text_append(out, "}\n");
+        }
+    }
+}
+
+void dump_mesh_part(const Scene *scene, const Part *part, TextBuffer *out)
+{
+    if (part->mesh.mesh->face_textures) {
+        dump_mesh(scene, part, part->mesh.mesh, out);
+    } else {
+        text_printf(out, "object { Mesh%lu", (unsigned long)part->mesh.mesh->number + 1);
+    }
+}

@@ -1,0 +1,157 @@
+// The trees of meshes, and what a hit is on.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/mesh.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+#include "math/extreme.h"
+#include "trace/bvh_walk.h"
+
+// ---- the tree
+
+static void refs_init(const MeshTable *table, BvhRef *refs)
+{
+    const Mesh *mesh = table->mesh;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        Vec3 a = mesh_corner(mesh, face, 0), b = mesh_corner(mesh, face, 1), c = mesh_corner(mesh, face, 2);
+        refs[face] = bvh_ref(&table->tree, vec3_least(a, vec3_least(b, c)),
+                             vec3_greatest(a, vec3_greatest(b, c)), face);
+    }
+}
+
+MeshTable *mesh_table_new(const Mesh *mesh, int threads)
+{
+    MeshTable *table = calloc(1, sizeof *table);
+    Pages ref_pages = {0};
+    if (!table) {
+        return NULL;
+    }
+    table->mesh = mesh;
+    bool done = pages_take(&ref_pages, mesh->face_count * sizeof(BvhRef)) &&
+                pages_take(&table->face_pages, mesh->face_count * sizeof *table->faces);
+    if (done) {
+        BvhRef *refs = ref_pages.memory;
+        table->faces = table->face_pages.memory;
+        bvh_place(&table->tree, mesh->low, mesh->high);
+        refs_init(table, refs);
+        done = bvh_build(&table->tree, refs, mesh->face_count, BVH_LEAF_EIGHT, threads);
+        for (uint32_t i = 0; done && i < mesh->face_count; i++) {
+            table->faces[i] = bvh_ref_index(&refs[i]);
+        }
+    }
+    pages_give(&ref_pages);
+    if (!done) {
+        mesh_table_free(table);
+        return NULL;
+    }
+    return table;
+}
+
+void mesh_table_free(MeshTable *table)
+{
+    bvh_fini(&table->tree);
+    pages_give(&table->face_pages);
+    free(table);
+}
+
+size_t mesh_table_bytes(const MeshTable *table)
+{
+    return sizeof *table + table->tree.node_count * sizeof(BvhNode) + table->mesh->face_count * sizeof *table->faces;
+}
+
+// ---- at a hit
+
+double mesh_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint32_t face)
+{
+    double error = solid_plane_error(solid, ray, object, t, mesh_face_normal(solid->mesh.table->mesh, face));
+    double most = MESH_ERROR_MOST * fabs(t);
+    return t == 0.0 || error < most ? error : most;
+}
+
+// On the side where the face is seen from, so to say: that of its own normal.
+static Vec3 face_normal(const Mesh *mesh, uint32_t face, const MeshPoint *at)
+{
+    Vec3 own = mesh_face_normal(mesh, face);
+    if (!mesh_face_is_smooth(mesh, face)) {
+        return own;
+    }
+    const uint32_t *numbers = mesh->face_normals[face];
+    Vec3 n = vec3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 3; i++) {
+        n = vec3_add_scaled(n, at->weights[i], mesh_vector(mesh->normals[numbers[i]]));
+    }
+    if (vec3_equal(n, vec3(0.0, 0.0, 0.0))) {
+        return own;
+    }
+    return vec3_dot(n, own) < 0.0 ? vec3_neg(n) : n;
+}
+
+void mesh_surface(const Solid *solid, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal)
+{
+    const Mesh *mesh = solid->mesh.table->mesh;
+    MeshQuery query;
+    MeshPoint at = {0.0, {1.0, 0.0, 0.0}};
+    Ray object = solid_ray(solid, ray);
+    mesh_query_make(&query, &object);
+    (void)mesh_ray_crosses(&query.shear, mesh, face, &at);
+    Vec3 own = vec3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 3; i++) {
+        own = vec3_add_scaled(own, at.weights[i], mesh_corner(mesh, face, i));
+    }
+    *point = vec3_add(solid->centre, linear_direction(&solid->to_world, own));
+    *normal = vec3_normalize(linear_normal(&solid->to_object, face_normal(mesh, face, &at)));
+}
+
+Vec3 mesh_plane(const Solid *solid, uint32_t shape_index)
+{
+    return mesh_face_normal(solid->mesh.table->mesh, shape_index - solid->mesh.first_face);
+}
+
+// ---- one crossing after the other
+
+static bool is_behind(double t, uint32_t face, double other, uint32_t other_face)
+{
+    return t > other || (t == other && face > other_face);
+}
+
+bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t)
+{
+    const MeshTable *table = solid->mesh.table;
+    const MeshQuery *query = &cursor->query;
+    BvhWalk walk;
+    BvhChild leaf;
+    double nearest = (double)INFINITY;
+    uint32_t found = MESH_NO_FACE;
+    if (!bvh_walk_start(&walk, &table->tree, query->ray.origin, query->ray.direction)) {
+        return false;
+    }
+    while (bvh_walk_next(&walk, bvh_walk_limit(&walk, nearest), &leaf)) {
+        uint32_t first = bvh_leaf_first(leaf), end = first + bvh_leaf_count(leaf);
+        for (uint32_t i = first; i < end; i++) {
+            MeshPoint at;
+            uint32_t own = table->faces[i];
+            if (mesh_ray_crosses(&query->shear, table->mesh, own, &at) && is_behind(at.t, own, cursor->t, cursor->face) &&
+                is_behind(nearest, found, at.t, own)) {
+                nearest = at.t;
+                found = own;
+            }
+        }
+    }
+    if (found == MESH_NO_FACE) {
+        return false;
+    }
+    cursor->t = nearest;
+    cursor->face = found;
+    *t = nearest / query->length;
+    return true;
+}
+
+bool mesh_is_crossed(const Solid *solid, const Ray *object)
+{
+    MeshCursor cursor = {.face = MESH_NO_FACE};
+    double t;
+    mesh_query_make(&cursor.query, object);
+    return mesh_next(solid, &cursor, &t);
+}

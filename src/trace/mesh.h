@@ -1,0 +1,79 @@
+// Meshes made ready for rays: a tree over the faces of each, which all parts that have it share.
+//
+// A ray is taken into the mesh's own space, where faces are asked by scene/mesh_ray.h. The walk of the tree for pictures
+// is in shapes_walk.h; composites ask for one crossing after the other. A ray that starts on a face leaves that face out, by
+// its number. Knows nothing of materials but where they stand.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_MESH_H
+#define TRACE_MESH_H
+
+#include "scene/mesh_ray.h"
+#include "trace/bvh.h"
+#include "trace/solid.h"
+
+struct MeshTable {
+    const Mesh *mesh; // not owned
+    Bvh tree;
+    uint32_t *faces; // in the tree's order
+    Pages face_pages;
+};
+
+// Of a valid mesh; NULL when out of memory.
+MeshTable *mesh_table_new(const Mesh *mesh, int threads) RT_MUST_CHECK;
+void mesh_table_free(MeshTable *table);
+size_t mesh_table_bytes(const MeshTable *table);
+
+// How far the t of a crossing with a face may be off by rounding; docs/numerics.md has the bound.
+double mesh_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint32_t face);
+
+// Where the ray hit a face, and the normal that light sees.
+void mesh_surface(const Solid *solid, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal);
+
+// Along the normal of a face's plane, in the solid's own space; `shape` is of the face.
+Vec3 mesh_plane(const Solid *solid, uint32_t shape_index);
+
+static inline MaterialIndex mesh_material(const Solid *solid, uint32_t face)
+{
+    const uint32_t *textures = solid->mesh.table->mesh->face_textures;
+    return textures && textures[face] ? solid->mesh.materials[textures[face] - 1] : solid->material;
+}
+
+// A ray in a mesh's space, of unit length as trees want it: t there is t of the ray times `length`.
+typedef struct MeshQuery {
+    Ray ray;
+    double length;
+    MeshRay shear;
+} MeshQuery;
+
+static inline void mesh_query_make(MeshQuery *query, const Ray *object)
+{
+    query->length = vec3_length(object->direction);
+    query->ray = (Ray){object->origin, vec3_scale(1.0 / query->length, object->direction)};
+    query->shear = mesh_ray_make(&query->ray);
+}
+
+enum {
+    MESH_CROSSINGS = 6,      // of a mesh that a ray keeps in a composite: the next, and those that come with it
+    MESH_NO_FACE = UINT32_MAX,
+};
+
+// No error of a crossing is taken for more than this share of its t, so that what lies behind a limit by more does not
+// matter.
+#define MESH_ERROR_MOST 0x1p-11
+
+// Where a ray stands in a mesh: behind crossing (t, face).
+typedef struct MeshCursor {
+    MeshQuery query;
+    double t; // of the query
+    uint32_t face;
+    bool is_inside;
+} MeshCursor;
+
+// Moves the cursor to the next crossing behind it, by t, then by number; t of the ray. False: there is none.
+bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t);
+
+// Whether a ray meets any face.
+bool mesh_is_crossed(const Solid *solid, const Ray *object);
+
+#endif

@@ -1,0 +1,219 @@
+// Closed meshes are watertight: a ray from inside meets one, whatever it is aimed at, and a line crosses it as often
+// inward as outward. The rays go through inner points of faces, through edges and through corners, of meshes that are
+// regular, so that edges lie along axes, and of ones with slivers; from the middle, from near a corner, and off the mesh
+// as it is placed by a map.
+//
+// test_mesh [rays of a mesh [seed]]; 20 000 if nothing is said, 10^7 in all in `make check-long`; a new seed each run.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/mesh.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "unit/random.h"
+#include "unit/tap.h"
+#include "unit/trace_scenes.h"
+
+enum { AROUND = 24, RINGS = 12 };
+
+static void *need(size_t count, size_t size)
+{
+    void *memory = calloc(count, size);
+    if (!memory) {
+        abort();
+    }
+    return memory;
+}
+
+static Mesh *empty_mesh(uint32_t vertices, uint32_t faces)
+{
+    Mesh *mesh = mesh_new();
+    if (!mesh) {
+        abort();
+    }
+    mesh->vertex_count = vertices;
+    mesh->face_count = faces;
+    mesh->vertices = need(vertices, sizeof *mesh->vertices);
+    mesh->faces = need(faces, sizeof *mesh->faces);
+    return mesh;
+}
+
+static void set_face(Mesh *mesh, uint32_t face, uint32_t a, uint32_t b, uint32_t c)
+{
+    mesh->faces[face][0] = a;
+    mesh->faces[face][1] = b;
+    mesh->faces[face][2] = c;
+}
+
+// A globe, whose corners are moved along their directions by up to `rough`, and which is `flat` along y.
+static Mesh *globe(Random *random, double rough, double flat)
+{
+    Mesh *mesh = empty_mesh((RINGS - 1) * AROUND + 2, 2 * (RINGS - 1) * AROUND);
+    uint32_t top = (RINGS - 1) * AROUND, bottom = top + 1, face = 0;
+    for (uint32_t i = 0; i + 1 < RINGS; i++) {
+        for (uint32_t k = 0; k < AROUND; k++) {
+            double a = M_PI * (i + 1) / RINGS, b = 2.0 * M_PI * k / AROUND;
+            double r = 1.0 - rough * random_between(random, 0.0, 1.0);
+            float *v = mesh->vertices[i * AROUND + k];
+            v[0] = (float)(r * sin(a) * cos(b));
+            v[1] = (float)(flat * r * cos(a));
+            v[2] = (float)(r * sin(a) * sin(b));
+        }
+    }
+    mesh->vertices[top][1] = (float)flat;
+    mesh->vertices[bottom][1] = -(float)flat;
+    for (uint32_t k = 0; k < AROUND; k++) {
+        uint32_t next = (k + 1) % AROUND, last = (RINGS - 2) * AROUND;
+        set_face(mesh, face++, top, k, next);
+        set_face(mesh, face++, bottom, last + next, last + k);
+        for (uint32_t i = 0; i + 2 < RINGS; i++) {
+            set_face(mesh, face++, i * AROUND + k, (i + 1) * AROUND + k, (i + 1) * AROUND + next);
+            set_face(mesh, face++, i * AROUND + k, (i + 1) * AROUND + next, i * AROUND + next);
+        }
+    }
+    mesh_measure(mesh);
+    mesh->inside_vector = vec3(0.1, 1.0, 0.2);
+    mesh->has_inside = true;
+    return mesh;
+}
+
+// A cube of six faces, each of 2 n n triangles: all edges along axes or diagonals.
+static Mesh *cube(uint32_t n)
+{
+    Mesh *mesh = empty_mesh(6 * (n + 1) * (n + 1), 12 * n * n);
+    uint32_t vertex = 0, face = 0;
+    for (uint32_t side = 0; side < 6; side++) {
+        uint32_t first = vertex, axis = side / 2;
+        for (uint32_t i = 0; i <= n; i++) {
+            for (uint32_t k = 0; k <= n; k++) {
+                float *v = mesh->vertices[vertex++];
+                v[axis] = side % 2 ? 1.0F : -1.0F;
+                v[(axis + 1) % 3] = 2.0F * (float)i / (float)n - 1.0F;
+                v[(axis + 2) % 3] = 2.0F * (float)k / (float)n - 1.0F;
+            }
+        }
+        for (uint32_t i = 0; i < n; i++) {
+            for (uint32_t k = 0; k < n; k++) {
+                uint32_t at = first + i * (n + 1) + k;
+                set_face(mesh, face++, at, at + 1, at + n + 2);
+                set_face(mesh, face++, at, at + n + 2, at + n + 1);
+            }
+        }
+    }
+    mesh_measure(mesh);
+    mesh->inside_vector = vec3(1.0, 0.0, 0.0);
+    mesh->has_inside = true;
+    return mesh;
+}
+
+// A place on the mesh: a corner, on an edge, or within a face.
+static Vec3 aim_of(Random *random, const Mesh *mesh)
+{
+    uint32_t face = (uint32_t)random_below(random, mesh->face_count);
+    Vec3 a = mesh_corner(mesh, face, 0), b = mesh_corner(mesh, face, 1), c = mesh_corner(mesh, face, 2);
+    double u = random_between(random, 0.0, 1.0), v = random_between(random, 0.0, 1.0 - u);
+    switch (random_below(random, 4)) {
+    case 0: return a;
+    case 1: return vec3_scale(0.5, vec3_add(a, b));
+    case 2: return vec3_add(vec3_scale(u, a), vec3_scale(1.0 - u, b));
+    default: return vec3_add(vec3_add(vec3_scale(u, a), vec3_scale(v, b)), vec3_scale(1.0 - u - v, c));
+    }
+}
+
+static Vec3 eye_of(Random *random, const Mesh *mesh)
+{
+    switch (random_below(random, 3)) {
+    case 0: return vec3(0.0, 0.0, 0.0);
+    case 1: return vec3_scale(0.5, aim_of(random, mesh));
+    default: return vec3_scale(random_between(random, 0.0, 0.6), aim_of(random, mesh));
+    }
+}
+
+// How often a line crosses the mesh before it begins and after.
+static unsigned count_crossings(const Mesh *mesh, const Ray *ray, bool is_after)
+{
+    MeshRay shear = mesh_ray_make(ray);
+    MeshPoint at;
+    unsigned count = 0;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        count += mesh_ray_crosses(&shear, mesh, face, &at) && (at.t > 0.0) == is_after;
+    }
+    return count;
+}
+
+static Geometry *geometry_of(Scene *scene, Mesh *mesh, Transform to_world)
+{
+    scene_init(scene);
+    Part part = {.kind = PART_MESH, .node = NODE_NONE, .to_world = to_world};
+    part.mesh = (PartMesh){mesh->low, mesh->high, mesh, 0};
+    if (!scene_add_mesh(scene, mesh) || !transform_invert(&to_world, &part.to_object) || !scene_add_part(scene, &part)) {
+        abort();
+    }
+    return prepare(scene, 0);
+}
+
+// Rays from inside, of which each must meet the mesh; and a few lines by all faces.
+static void check_closed(const char *name, Mesh *mesh, Transform to_world, uint64_t rays, uint64_t seed)
+{
+    Random random = {seed};
+    Scene scene;
+    Geometry *g = geometry_of(&scene, mesh, to_world);
+    uint64_t missed = 0, uneven = 0, apart = 0;
+    for (uint64_t i = 0; i < rays; i++) {
+        Vec3 eye = transform_point(&to_world, eye_of(&random, mesh));
+        Vec3 aim = transform_point(&to_world, aim_of(&random, mesh));
+        Ray ray = {eye, vec3_normalize(vec3_sub(aim, eye))};
+        Hit hit, any;
+        bool is_met = closest(g, ray, RAY_START_FREE, (double)INFINITY, &hit);
+        missed += !is_met;
+        apart += is_met != geometry_occluded(g, TRACE_ALL_FEATURES, ray, RAY_START_FREE, (double)INFINITY);
+        if (i % 64 == 0) {
+            Ray own = {eye_of(&random, mesh), vec3_sub(aim_of(&random, mesh), vec3(0.01, 0.02, 0.0))};
+            unsigned before = count_crossings(mesh, &own, false), after = count_crossings(mesh, &own, true);
+            uneven += before % 2 != 1 || after % 2 != 1;
+        }
+        if (is_met && i % 16 == 0) { // on from there: outward nothing more of a globe, whatever edge it is on
+            RayStart start = {hit.shape, false, 0};
+            Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit);
+            Ray on = {surface.point, ray.direction};
+            apart += closest(g, on, start, (double)INFINITY, &any) && any.shape == hit.shape;
+        }
+    }
+    tap_ok(missed == 0, "%s: of %llu rays %llu slip out", name, (unsigned long long)rays, (unsigned long long)missed);
+    tap_ok(uneven == 0, "%s: lines are crossed an odd number of times on either side", name);
+    tap_ok(apart == 0, "%s: shadows agree, and a face is not met from itself", name);
+    geometry_free(g);
+    scene_fini(&scene);
+}
+
+static void check_points(void)
+{
+    Random random = {7};
+    Mesh *mesh = globe(&random, 0.0, 1.0);
+    tap_ok(mesh_holds(mesh, vec3(0.0, 0.0, 0.0)) && mesh_holds(mesh, vec3(0.0, 0.9, 0.0)), "points inside");
+    tap_ok(!mesh_holds(mesh, vec3(0.0, -1.1, 0.0)) && !mesh_holds(mesh, vec3(2.0, 0.0, 0.0)), "points outside");
+    mesh->has_inside = false;
+    tap_ok(!mesh_holds(mesh, vec3(0.0, 0.0, 0.0)), "without an inside nothing is");
+    tap_ok(mesh_is_valid(mesh), "it is valid");
+    mesh->faces[3][1] = mesh->vertex_count;
+    tap_ok(!mesh_is_valid(mesh), "an index out of range is not");
+    mesh_free(mesh);
+}
+
+int main(int argc, char **argv)
+{
+    uint64_t rays = argc > 1 ? strtoull(argv[1], NULL, 10) : 20000, seed = random_seed(argc > 2 ? argv[2] : NULL);
+    Random random = {seed};
+    Transform none = transform_identity();
+    Transform turned = transform_compose(transform_rotate(vec3(20.0, 30.0, 40.0)), transform_scale(vec3(3.0, -0.7, 1.0)));
+    Transform far = transform_compose(transform_scale(vec3(1e-3, 1e-3, 1e-3)), transform_translate(vec3(5.0, -3.0, 2.0)));
+    check_points();
+    check_closed("globe", globe(&random, 0.0, 1.0), none, rays, seed + 1);
+    check_closed("rough globe", globe(&random, 0.3, 1.0), none, rays, seed + 2);
+    check_closed("flat globe", globe(&random, 0.1, 1e-3), turned, rays, seed + 3);
+    check_closed("cube", cube(6), none, rays, seed + 4);
+    check_closed("cube that is turned", cube(5), turned, rays, seed + 5);
+    check_closed("small globe far away", globe(&random, 0.1, 1.0), far, rays, seed + 6);
+    return tap_done();
+}
