@@ -478,7 +478,7 @@ static size_t part_stack(const Part *part)
 {
     unsigned intervals = primitive_intervals(part);
     bool is_mesh = part->kind == PART_MESH || part->kind == PART_MESH_SOLID;
-    return COMPOSITE_PART_STACK + (is_mesh ? MESH_CURSOR_STACK : 0) +
+    return COMPOSITE_PART_STACK + (is_mesh ? (size_t)MESH_CURSOR_STACK : 0) +
            (intervals > 1 ? (size_t)intervals * CROSSINGS_STACK : 0);
 }
 
