@@ -26,10 +26,14 @@ tap = Tap()
 
 
 def same(name, found, expected):
-    """Drawings to the letter, pictures to the pixel: their files also say which version drew them."""
+    """Drawings to the letter, or where they show times by their words and errors; pictures to the pixel: their files also say which
+    version drew them."""
     if name.endswith(".svg"):
         with open(found, "rb") as one, open(expected, "rb") as other:
-            return one.read() == other.read()
+            texts = one.read(), other.read()
+        if name == "study.svg":
+            texts = [re.findall(rb">([^<>]*[a-z]{4}[^<>]*)<", re.sub(rb": \S+ s, ", b": ", text)) for text in texts]
+        return texts[0] == texts[1]
     return pictures.read_png(found) == pictures.read_png(expected)
 
 
