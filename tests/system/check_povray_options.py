@@ -67,9 +67,16 @@ def check_messages():
              "a.ini": "b.ini\n", "b.ini": "+W8\n a.ini",
              "key.ini": "Width = 8\nHeigth=6\n",
              "value.ini": "[big]\nWidth=900\n[small]\n Width = \"wide\" ; not a number\n",
+             "scene.ini": "+W8 +H6\nInput_File_Name = nowhere.pov\n",
              "binary.ini": "s.pov\0+W8",
              "refused.ini": "; comment\nPost_Frame_Command=rm %o\n"}
     for what, words, said in [
+            ("a scene that is not there", ["scene.ini"],
+             "scene.ini:2:19: error[E0501]: scene file `nowhere.pov` not found\n"
+             "   2 | Input_File_Name = nowhere.pov\n     |                   ^~~~~~~~~~~\n"),
+            ("the same on the command line", ["+W8", "+Inowhere.pov"],
+             "command line:1:7: error[E0501]: scene file `nowhere.pov` not found\n"
+             "   1 | +W8 +Inowhere.pov\n     |       ^~~~~~~~~~~\n"),
             ("a switch", ["+Is.pov", "+Zfoo"],
              "command line:1:9: error[E0704]: POV-Ray has no switch `+Zfoo`\n"
              "   1 | +Is.pov +Zfoo\n     |         ^~~~~\n" + unknown),
