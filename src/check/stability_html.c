@@ -34,7 +34,8 @@ static void put_backward(FILE *out)
           "<circle class=\"given\" cx=\"300\" cy=\"120\" r=\"80\"/><circle class=\"nearby\" cx=\"300\" cy=\"120\" r=\"98\"/>"
           "<circle class=\"exact\" cx=\"221.6\" cy=\"104\" r=\"4\"/><circle class=\"computed\" cx=\"203.3\" cy=\"104\" r=\"4\"/>"
           "<line class=\"off\" x1=\"300\" y1=\"200\" x2=\"300\" y2=\"218\"/>"
-          "<text x=\"12\" y=\"96\">the ray, as given</text><text x=\"258\" y=\"150\">the sphere, as given</text>"
+          "<text x=\"12\" y=\"96\">the ray, as given</text><text x=\"300\" y=\"142\" text-anchor=\"middle\">the sphere,</text>"
+          "<text x=\"300\" y=\"158\" text-anchor=\"middle\">as given</text>"
           "<text x=\"60\" y=\"30\">nearby: the computed</text><text x=\"60\" y=\"46\">point is exact here</text>"
           "<text x=\"228\" y=\"98\">exact point</text><text x=\"88\" y=\"124\">computed point</text></svg>\n"
           "<figcaption>Every computed point lies exactly on some sphere nearby, here far enough off to be seen. The backward "
@@ -337,7 +338,9 @@ static bool put_breaks(const Stability *stability, FILE *out)
             fine = put_break(&stability->breaks[i], out) && fine;
         }
     }
-    fputs("</div>\n<details><summary>The scene as it is, and where both programs draw it so</summary><div class=\"cards\">\n", out);
+    fputs("</div>\n<details><summary>The scene as it is, and where both programs draw it so</summary>"
+          "<div class=\"cards\">\n",
+          out);
     for (size_t i = 0; i < stability->break_count; i++) {
         if (!is_other(&stability->breaks[i])) {
             fine = put_break(&stability->breaks[i], out) && fine;
