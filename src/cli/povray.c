@@ -274,7 +274,8 @@ static rt_status check_scene(rt_session *session, const Povray *povray)
 static void say_what_is_drawn(const Povray *povray, const Options *options, Voice *voice)
 {
     char text[2 * PATH_MAX + 64];
-    const char *output = povray->output[0] == '-' && strchr(".", povray->output[1]) ? "standard output" : povray->output;
+    bool is_stream = povray->output[0] == '-' && strchr(".", povray->output[1]);
+    const char *output = is_stream ? "standard output" : povray->output;
     int length = snprintf(text, sizeof text, "%s: %d by %d%s%s\n", povray->scene, options->width, options->height,
                           options->has_no_output ? "" : " to ", options->has_no_output ? "" : output);
     voice_say(voice, VOICE_RENDER, text, (size_t)length);
