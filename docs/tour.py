@@ -5,7 +5,7 @@
 
 Blocks of scenes go to the files that their first lines name; then the lines that begin with `$` run in that folder, one block
 after the other. The page shows what they print and holds the pictures that they draw; links to other documents become their
-names. Wants RTLANG and python3-markdown. tests/check-tour.py uses `walk` and `html_of`.
+names. Wants RTLANG, rtcheck beside it, and python3-markdown. tests/check-tour.py uses `walk` and `html_of`.
 SPDX-License-Identifier: MIT
 """
 import base64
@@ -107,7 +107,8 @@ def run(text, folder):
     shown = ""
     for command in re.findall(r"^\$ (.*)$", text, re.MULTILINE):
         program = os.path.abspath(os.environ["RTLANG"])
-        done = subprocess.run(["sh", "-c", f'rtlang() {{ "{program}" "$@"; }}\n{command}'], cwd=folder,
+        names = "".join(f'{name}() {{ "{os.path.join(os.path.dirname(program), name)}" "$@"; }}\n' for name in ("rtlang", "rtcheck"))
+        done = subprocess.run(["sh", "-c", names + command], cwd=folder,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         shown += f"$ {command}\n" + done.stdout.decode("utf-8", "replace")
     return shown
@@ -135,7 +136,8 @@ def figure(words, path):
         data = file.read()
     kind = os.path.splitext(path)[1]
     if kind == ".svg":
-        shown = re.sub(r"<title>.*?</title>\n?", f"<title>{words}</title>", data.decode("utf-8"), flags=re.DOTALL)
+        shown = re.sub(r"<title>.*?</title>\n?", f"<title>{words}</title>", data.decode("utf-8"), flags=re.DOTALL, count=1)
+        shown = shown.replace('color="black" fill="black" style="background: white"', 'color="currentColor" fill="currentColor"')
     else:
         shown = f'<img alt="" src="data:{KINDS[kind]};base64,{base64.b64encode(data).decode("ascii")}">'
     return f"<figure>{shown}<figcaption>{words}</figcaption></figure>"

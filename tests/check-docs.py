@@ -97,6 +97,12 @@ def povray_options():
     return "```text\n" + output_of(os.environ["RTLANG"], "--help=povray") + "```\n"
 
 
+def povray_page():
+    """The same for the manual page, where a backslash is `\\e` and a dash `\\-`; no line begins with a dot."""
+    shown = output_of(os.environ["RTLANG"], "--help=povray").replace("\\", "\\e").replace("-", "\\-")
+    return f'.Bd -literal\n{shown}.Ed\n.\\" '
+
+
 def check_generated(document, mark, want):
     begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->"
     text = read(document)
@@ -130,6 +136,7 @@ def checks():
            check_generated("docs/diagnostics.md", "codes", printed("PRINT_DIAGNOSTICS")))
     yield ("docs/povray.md: the options are those of the table",
            check_generated("docs/povray.md", "options", povray_options()))
+    yield "rtlang.1: POV-Ray's options are those of the table", check_generated("docs/rtlang.1", "povray", povray_page())
 
 
 def main():

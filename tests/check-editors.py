@@ -52,8 +52,11 @@ def options():
     return found
 
 
-def povray_keys():
-    return re.findall(r"^  ([A-Z]\w+) ", output_of(PROGRAM, "--help=povray"), re.M)
+def povray_words():
+    """POV-Ray's keys, and its switches with the sign +, a value still to come."""
+    shown = output_of(PROGRAM, "--help=povray")
+    switches = re.findall(r"^  [A-Z]\w+ +\+-?([A-Z]+)", shown, re.M)
+    return [key + "=" for key in re.findall(r"^  ([A-Z]\w+) ", shown, re.M)] + ["+" + switch for switch in switches]
 
 
 def words():
@@ -83,7 +86,7 @@ def filled(before, items, columns=COLUMNS):
     return "\n".join(lines + [line])
 
 
-def bash(table, keys):
+def bash(table, povray):
     cases = []
     for letter, name, _, kind, _ in table:
         names = f"--{name}" + (f"|-{letter}" if letter else "")
@@ -95,24 +98,26 @@ def bash(table, keys):
             cases.append(f"    {names}) COMPREPLY=($(compgen -W \"{' '.join(kind)}\" -- \"$cur\")); return ;;")
     names = [f"--{name}" + ("=" if argument and not argument.startswith("[") else "") for _, name, argument, _, _ in table]
     return "\n".join([
-        "# Bash completion of rtlang, and of POV-Ray's keys in its place. Made from the table of options: tests/check-editors.py.",
+        "# Bash completion of rtlang, and of POV-Ray's in its place. Made from the table of options: tests/check-editors.py.",
         "# SPDX-License-Identifier: MIT", "_rtlang()", "{",
         "    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}",
         "    # Bash takes `--name=value` apart at the sign.",
         "    if [ \"$cur\" = = ]; then cur=; elif [ \"$prev\" = = ]; then prev=${COMP_WORDS[COMP_CWORD-2]}; fi",
         "    case $prev in", *cases, "    esac", "    case $cur in", "    -*) COMPREPLY=($(compgen -W \"",
         filled("       ", names), "        \" -- \"$cur\"))", "        [[ ${COMPREPLY[0]} == *= ]] && compopt -o nospace 2>/dev/null ;;",
-        "    [A-Z]*) COMPREPLY=($(compgen -f -- \"$cur\") $(compgen -W \"", filled("       ", [key + "=" for key in keys]),
-        "        \" -- \"$cur\")) ;;", "    *) COMPREPLY=($(compgen -f -- \"$cur\")) ;;", "    esac", "}",
+        "    [A-Z+]*) COMPREPLY=($(compgen -f -- \"$cur\") $(compgen -W \"", filled("       ", povray),
+        "        \" -- \"$cur\"))", "        compopt -o nospace 2>/dev/null ;;", "    *) COMPREPLY=($(compgen -f -- \"$cur\")) ;;", "    esac", "}",
         "complete -o filenames -F _rtlang rtlang", ""])
 
 
-def zsh(table):
+def zsh(table, povray):
     def quoted(text):
         return text.replace("'", "'\\''").replace("[", "\\[").replace("]", "\\]").replace(":", "\\:")
 
     lines = ["#compdef rtlang", "# Zsh completion of rtlang. Made from the table of options: tests/check-editors.py.",
-             "# SPDX-License-Identifier: MIT", "_arguments -s \\"]
+             "# SPDX-License-Identifier: MIT", "_rtlang_words()", "{", "  local words=(", filled("   ", povray), "  )",
+             "  _alternative 'files:scene:_files -g \"*.(scn|pov|ini)\"' 'povray:POV-Ray option:compadd -S \"\" -a words'", "}",
+             "_arguments -s \\"]
     for letter, name, argument, kind, told in table:
         action = {"file": "_files", "folder": "_files -/"}.get(kind if isinstance(kind, str) else "",
                                                               f"({' '.join(kind)})" if kind else "")
@@ -122,7 +127,7 @@ def zsh(table):
         lines.append(f"  '*--{name}{sign}[{told}]{takes}' \\")
         if letter:
             lines.append(f"  '*-{letter}{'+' if argument else ''}[{told}]{takes}' \\")
-    return "\n".join(lines + ["  '*:scene:_files -g \"*.(scn|pov|ini)\"'", ""])
+    return "\n".join(lines + ["  '*:scene:_rtlang_words'", ""])
 
 
 def vim(table):
@@ -172,7 +177,7 @@ def vscode(table):
 
 def files():
     table, language = options(), words()
-    made = {"share/completions/rtlang": bash(table, povray_keys()), "share/completions/_rtlang": zsh(table),
+    made = {"share/completions/rtlang": bash(table, povray_words()), "share/completions/_rtlang": zsh(table, povray_words()),
             "share/rtlang/rtlang.vim": vim(language)}
     for name, content in vscode(language).items():
         made[f"share/vscode/{name}"] = json.dumps(content, indent=2) + "\n"
@@ -198,7 +203,7 @@ def check_bash(report):
         for line, expected in ((("rtlang", "--len"), ["--lenient"]), (("rtlang", "--wid"), ["--width="]), (("rtlang", "ba"), ["ball.scn"]),
                                (("rtlang", "--sampler", "=", "ha"), ["halton"]), (("rtlang", "--depth", "="), ["8", "16", "float"]),
                                (("rtlang", "-I", ""), ["lib"]), (("rtlang", "--dump", "=", "a"), ["ast"]),
-                               (("rtlang", "Antialias_D"), ["Antialias_Depth="])):
+                               (("rtlang", "Antialias_D"), ["Antialias_Depth="]), (("rtlang", "+KF"), ["+KFI", "+KFF", "+KF"])):
             found = complete(folder, *(word or "''" for word in line))
             report.equal(found, (expected, ""), f"bash completes {' '.join(line)}")
 

@@ -4,6 +4,7 @@
 #include "api/session.h"
 #include "base/json.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/explain.h"
@@ -186,4 +187,23 @@ rt_status rt_report_in(rt_session *session, const char *code, const char *name, 
     rt_status status = report(session, code, (Span){base + begin, base + end}, message, suggestion);
     source_close(source);
     return status;
+}
+
+void session_suggest_scene(rt_session *session, const char *path)
+{
+    enum { NAMES = 1 << 20 }; // bytes of them at most
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    int length = (int)(name - path);
+    char folder[4096];
+    Arena arena;
+    Suggest suggest;
+    snprintf(folder, sizeof folder, "%.*s", length, path);
+    arena_init(&arena, NAMES);
+    suggest_begin(&suggest, name);
+    suggest_offer_folder(&suggest, &arena, length > 0 ? folder : ".");
+    if (suggest.best) {
+        diag_suggest(&session->diags, "did you mean `%.*s%s`?", length, path, suggest.best);
+    }
+    arena_fini(&arena);
 }

@@ -159,7 +159,9 @@ bool session_open(rt_session *session, const char *path, Source **source)
     case SOURCE_CANCELLED:
         break;
     case SOURCE_NOT_FOUND:
-        diag_report(&session->diags, DIAG_E0501, SPAN_NONE, "scene file `%s` not found", name);
+        if (diag_report(&session->diags, DIAG_E0501, SPAN_NONE, "scene file `%s` not found", name)) {
+            session_suggest_scene(session, path);
+        }
         break;
     case SOURCE_NOT_READABLE:
         diag_report(&session->diags, DIAG_E0502, SPAN_NONE, "cannot read `%s`: %s", name, strerror(error_number));

@@ -183,6 +183,9 @@ rt_status session_status(rt_session *session, bool fine);
 // Says that memory is exhausted, without taking any; RT_FAULT_LIMIT.
 rt_status session_no_memory(rt_session *session);
 
+// Adds to the message that a scene is not found what in its folder has nearly that name.
+void session_suggest_scene(rt_session *session, const char *path);
+
 // Calls work(session, argument) where the stack bears all that the limits of nesting allow, whatever the caller's thread
 // has; returns what that returns.
 rt_status session_run_deep(rt_session *session, rt_status (*work)(rt_session *session, void *argument), void *argument);

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/suggest.h"
 
+#include <dirent.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -154,4 +155,19 @@ void suggest_offer(Suggest *suggest, const char *candidate)
         suggest->best = candidate;
         suggest->best_cost = cost;
     }
+}
+
+void suggest_offer_folder(Suggest *suggest, Arena *arena, const char *folder)
+{
+    DIR *directory = opendir(folder);
+    if (directory == NULL) {
+        return;
+    }
+    for (const struct dirent *entry; (entry = readdir(directory)) != NULL;) {
+        char *name = arena_copy_text(arena, entry->d_name, strlen(entry->d_name));
+        if (name != NULL && name[0] != '.') {
+            suggest_offer(suggest, name);
+        }
+    }
+    closedir(directory);
 }

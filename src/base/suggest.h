@@ -6,6 +6,8 @@
 
 #include <stddef.h>
 
+#include "base/arena.h"
+
 // Keeps the best candidate seen so far. Start with suggest_begin, offer every name in scope, read `best`.
 typedef struct Suggest {
     const char *wanted;
@@ -23,5 +25,8 @@ void suggest_begin(Suggest *suggest, const char *wanted);
 // the right one. Capitals cost half an edit for the whole name.
 // When nothing is near, a candidate that begins with the wanted name and `_` will do.
 void suggest_offer(Suggest *suggest, const char *candidate);
+
+// Offers what is in a folder but hidden; the names are copied into the arena. None where it cannot be read.
+void suggest_offer_folder(Suggest *suggest, Arena *arena, const char *folder);
 
 #endif

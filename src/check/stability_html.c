@@ -34,7 +34,8 @@ static void put_backward(FILE *out)
           "<circle class=\"given\" cx=\"300\" cy=\"120\" r=\"80\"/><circle class=\"nearby\" cx=\"300\" cy=\"120\" r=\"98\"/>"
           "<circle class=\"exact\" cx=\"221.6\" cy=\"104\" r=\"4\"/><circle class=\"computed\" cx=\"203.3\" cy=\"104\" r=\"4\"/>"
           "<line class=\"off\" x1=\"300\" y1=\"200\" x2=\"300\" y2=\"218\"/>"
-          "<text x=\"12\" y=\"96\">the ray, as given</text><text x=\"258\" y=\"150\">the sphere, as given</text>"
+          "<text x=\"12\" y=\"96\">the ray, as given</text><text x=\"300\" y=\"142\" text-anchor=\"middle\">the sphere,</text>"
+          "<text x=\"300\" y=\"158\" text-anchor=\"middle\">as given</text>"
           "<text x=\"60\" y=\"30\">nearby: the computed</text><text x=\"60\" y=\"46\">point is exact here</text>"
           "<text x=\"228\" y=\"98\">exact point</text><text x=\"88\" y=\"124\">computed point</text></svg>\n"
           "<figcaption>Every computed point lies exactly on some sphere nearby, here far enough off to be seen. The backward "
@@ -267,7 +268,23 @@ static bool put_shown(const Stability *stability, FILE *out)
     return fine;
 }
 
-// Of how many pictures more than one pixel in a thousand is another than that of the scene as it is.
+// Whether more than one pixel in a thousand is another than that of the scene as it is.
+static bool is_off(uint64_t off, uint64_t pixels)
+{
+    return off * 1000 > pixels;
+}
+
+static bool is_povray_off(const BreakRow *row)
+{
+    return !row->has_povray || is_off(row->povray_off, row->pixels);
+}
+
+static bool is_other(const BreakRow *row)
+{
+    return is_off(row->off, row->pixels) || is_povray_off(row);
+}
+
+// Of how many pictures that holds.
 static void put_breaks_sum(const Stability *stability, FILE *out)
 {
     size_t ours = 0, theirs = 0;
@@ -278,8 +295,8 @@ static void put_breaks_sum(const Stability *stability, FILE *out)
     }
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];
-        ours += row->off * 1000 > row->pixels;
-        theirs += !row->has_povray || row->povray_off * 1000 > row->pixels;
+        ours += is_off(row->off, row->pixels);
+        theirs += is_povray_off(row);
     }
     fprintf(out,
             "<p class=\"verdict\">Of %zu pictures of scenes put elsewhere, POV-Ray draws %zu otherwise or not at all, rtlang "
@@ -287,31 +304,49 @@ static void put_breaks_sum(const Stability *stability, FILE *out)
             stability->break_count, theirs, ours);
 }
 
+// Both pictures of a scene put elsewhere.
+static bool put_break(const BreakRow *row, FILE *out)
+{
+    char caption[128];
+    fputs("<article><h4>", out);
+    html_text(out, row->scene);
+    fprintf(out, ", %s</h4><div class=\"pictures\">\n", row->what);
+    snprintf(caption, sizeof caption, "rtlang: %" PRIu64 " of %" PRIu64 " pixels differ", row->off, row->pixels);
+    bool fine = put_picture(&row->ours, caption, out);
+    if (row->has_povray) {
+        snprintf(caption, sizeof caption, "POV-Ray: %" PRIu64 " of %" PRIu64 " pixels differ", row->povray_off,
+                 row->pixels);
+        fine = put_picture(&row->povray, caption, out) && fine;
+    } else {
+        fputs("<p class=\"bad\">POV-Ray makes no picture of it.</p>\n", out);
+    }
+    fputs("</div></article>\n", out);
+    return fine;
+}
+
+// What one of the programs draws otherwise comes first; what both draw alike waits to be asked for.
 static bool put_breaks(const Stability *stability, FILE *out)
 {
     bool fine = true;
-    fputs("<h3>Where POV-Ray's range ends</h3>\n<p>The same scenes in other units and places. Pixels are counted that "
-          "differ by more "
-          "than 2/255 from the scene as it is. A shift by 1e6 is still within that range.</p>\n",
-          out);
     put_breaks_sum(stability, out);
+    fputs("<h3>Where POV-Ray's range ends</h3>\n<p>The same scenes in other units and places. Pixels are counted that "
+          "differ by more than 2/255 from the scene as it is. A shift by 1e6 is still within that range.</p>\n"
+          "<div class=\"cards\">\n",
+          out);
     for (size_t i = 0; i < stability->break_count; i++) {
-        const BreakRow *row = &stability->breaks[i];
-        char caption[128];
-        fputs("<article><h3>", out);
-        html_text(out, row->scene);
-        fprintf(out, ", %s</h3><div class=\"pictures\">\n", row->what);
-        snprintf(caption, sizeof caption, "rtlang: %" PRIu64 " of %" PRIu64 " pixels differ", row->off, row->pixels);
-        fine = put_picture(&row->ours, caption, out) && fine;
-        if (row->has_povray) {
-            snprintf(caption, sizeof caption, "POV-Ray: %" PRIu64 " of %" PRIu64 " pixels differ", row->povray_off,
-                     row->pixels);
-            fine = put_picture(&row->povray, caption, out) && fine;
-        } else {
-            fputs("<p class=\"bad\">POV-Ray makes no picture of it.</p>\n", out);
+        if (is_other(&stability->breaks[i])) {
+            fine = put_break(&stability->breaks[i], out) && fine;
         }
-        fputs("</div></article>\n", out);
     }
+    fputs("</div>\n<details><summary>The scene as it is, and where both programs draw it so</summary>"
+          "<div class=\"cards\">\n",
+          out);
+    for (size_t i = 0; i < stability->break_count; i++) {
+        if (!is_other(&stability->breaks[i])) {
+            fine = put_break(&stability->breaks[i], out) && fine;
+        }
+    }
+    fputs("</div></details>\n", out);
     return fine;
 }
 

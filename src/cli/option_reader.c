@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/option_reader.h"
 
+#include <ctype.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdarg.h>
@@ -145,7 +146,11 @@ static OptionsResult complain_getopt(const OptionTable *table, OptionReading *re
     if (row) {
         return option_complain(reading, "option `--%s` takes no argument", row->name);
     }
+    int other = is_letter ? (islower(optopt) ? toupper(optopt) : tolower(optopt)) : 0;
     advise(table, reading, word);
+    if (!reading->advice[0] && other != optopt && find_row(table, other)) {
+        snprintf(reading->advice, sizeof reading->advice, "did you mean `-%c`?", other);
+    }
     return option_complain(reading, "unknown option `%s`", is_letter ? letter : word);
 }
 

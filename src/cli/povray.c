@@ -64,8 +64,7 @@ bool povray_is_meant(int argc, char **argv)
 
 // ---- the scene and its picture
 
-// As it is, or with the ending that POV-Ray adds, here or in a folder of Library_Path. What is nowhere keeps its name,
-// so that loading it says so.
+// As it is, or with the ending that POV-Ray adds, here or in a folder of Library_Path. What is nowhere keeps its name.
 static bool find_scene(Povray *povray)
 {
     static const char *const endings[] = {"", ".pov", ".POV"};
@@ -260,11 +259,25 @@ static rt_status write_ini(rt_session *session, const Povray *povray)
     return rt_report(session, "E0505", message, NULL);
 }
 
+static rt_status check_scene(rt_session *session, const Povray *povray)
+{
+    const PovrayPlace *place = &povray->settings.input_place;
+    char message[PATH_MAX + 32];
+    struct stat status;
+    if (strcmp(povray->scene, "-") == 0 || stat(povray->scene, &status) == 0 || errno != ENOENT) {
+        return RT_OK; // loading it reports the rest
+    }
+    snprintf(message, sizeof message, "scene file `%s` not found", povray->scene);
+    return rt_report_in(session, "E0501", place->name, place->text, place->begin, place->end, message, NULL);
+}
+
 static void say_what_is_drawn(const Povray *povray, const Options *options, Voice *voice)
 {
     char text[2 * PATH_MAX + 64];
+    bool is_stream = povray->output[0] == '-' && strchr(".", povray->output[1]);
+    const char *output = is_stream ? "standard output" : povray->output;
     int length = snprintf(text, sizeof text, "%s: %d by %d%s%s\n", povray->scene, options->width, options->height,
-                          options->has_no_output ? "" : " to ", options->has_no_output ? "" : povray->output);
+                          options->has_no_output ? "" : " to ", options->has_no_output ? "" : output);
     voice_say(voice, VOICE_RENDER, text, (size_t)length);
 }
 
@@ -291,6 +304,7 @@ static rt_status follow(rt_session *session, Povray *povray, Options *options, V
     status = status ? status : follow_lists(session, settings, options);
     status = status ? status : write_ini(session, povray);
     status = status ? status : open_files(session, povray, voice);
+    status = status ? status : check_scene(session, povray);
     if (!status) {
         say_what_is_drawn(povray, options, voice);
     }

@@ -28,6 +28,12 @@ typedef enum PovrayKind {
     POVRAY_INI,       // a file of options, read here
 } PovrayKind;
 
+// Bytes of a text that was read.
+typedef struct PovrayPlace {
+    const char *name, *text; // of the settings' own texts
+    size_t begin, end;
+} PovrayPlace;
+
 // Pointers are to texts that the settings own.
 typedef struct PovraySettings {
     int width, height;
@@ -40,6 +46,7 @@ typedef struct PovraySettings {
     bool has_alpha;
     double file_gamma;
     const char *input, *output, *header, *create_ini; // NULL: not said
+    PovrayPlace input_place;
     bool antialias;
     int method, depth;
     double threshold, antialias_gamma;

@@ -32,17 +32,21 @@ static PovraySpan unquoted(const PovrayText *text, PovraySpan span)
     return is_quoted ? (PovraySpan){span.begin + 1, span.end - 1} : span;
 }
 
-const char *povray_keep(const PovrayText *text, PovraySpan span)
+static const char *keep(PovraySettings *settings, const char *begin, size_t length)
 {
-    PovraySettings *settings = text->settings;
-    PovraySpan inner = unquoted(text, span);
     char **texts = realloc(settings->texts, (settings->text_count + 1) * sizeof *texts);
-    char *copy = texts ? strndup(text->text + inner.begin, inner.end - inner.begin) : NULL;
+    char *copy = texts ? strndup(begin, length) : NULL;
     settings->texts = texts ? texts : settings->texts;
     if (copy) {
         settings->texts[settings->text_count++] = copy;
     }
     return copy;
+}
+
+const char *povray_keep(const PovrayText *text, PovraySpan span)
+{
+    PovraySpan inner = unquoted(text, span);
+    return keep(text->settings, text->text + inner.begin, inner.end - inner.begin);
 }
 
 static rt_status no_memory(const PovrayText *text)
@@ -157,6 +161,17 @@ static const char *usual_file(const PovrayRow *row)
     return ""; // Create_Ini: by the scene's name, which is known later
 }
 
+// Where the scene is named: whether there is one is known when all options have been read.
+static bool keep_place(const PovrayText *text, PovraySpan value)
+{
+    PovrayPlace *place = &text->settings->input_place;
+    place->name = keep(text->settings, text->name, strlen(text->name));
+    place->text = keep(text->settings, text->text, strlen(text->text));
+    place->begin = value.begin;
+    place->end = value.end;
+    return place->name && place->text;
+}
+
 static rt_status set_text(const PovrayText *text, const PovrayRow *row, PovraySpan value)
 {
     const char **field = (const char **)((char *)text->settings + row->field);
@@ -173,7 +188,7 @@ static rt_status set_text(const PovrayText *text, const PovrayRow *row, PovraySp
     }
     const char *copy = povray_keep(text, value);
     *field = copy;
-    return copy ? RT_OK : no_memory(text);
+    return copy && (field != &text->settings->input || keep_place(text, value)) ? RT_OK : no_memory(text);
 }
 
 static rt_status add_text(const PovrayText *text, PovraySpan value, const char ***list, size_t *count)

@@ -40,11 +40,9 @@ CODE_BAR = 1
 WRITES = "--update" in sys.argv
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "povray.md")
 # `povray`: the program under that name, from a folder of its own, and what it took of the processor into a file.
-WRAPPER = """#!/bin/sh
-"$0.d/povray" "$@"
-status=$?
-times >>"$0.times"
-exit $status
+WRAPPER = """#!/bin/bash
+TIMEFORMAT='%3U %3S'
+{ time "$0.d/povray" "$@" 2>&3; } 3>&2 2>>"$0.times"
 """
 # name, the words, their picture
 RECORDED = [
@@ -112,9 +110,9 @@ def seconds_of(place):
     """Of the processor, of all runs of the wrapper since the last time."""
     path = os.path.join(place, "povray.times")
     with open(path, encoding="ascii") as file:
-        found = re.findall(r"(\d+)m([\d.]+)s", "".join(file.readlines()[1::2])) # the shell's own stand before them
+        found = file.read().split()
     os.remove(path)
-    return sum(60 * int(minutes) + float(seconds) for minutes, seconds in found)
+    return sum(map(float, found))
 
 
 def run(words, folder, place):
@@ -165,8 +163,8 @@ def verdict(results):
     beyond = sum(far > CODE_BAR for far in apart)
     words = (f"{own[1]} by {own[2]}, {beyond} of {len(apart)} pixels differ by more than {CODE_BAR} code; "
              f"{seconds:.2f} s, POV-Ray {other_seconds:.2f} s")
-    times = f"{other_seconds / seconds:.0f}" if seconds > 0 else ""
-    cells = (f"{own[1]} x {own[2]}", f"{beyond}", f"{seconds:.2f}", f"{other_seconds:.2f}", times)
+    times = f"{other_seconds / max(seconds, 0.001):.0f}"
+    cells = (f"{own[1]} x {own[2]}", f"{beyond}", f"{seconds:.3f}", f"{other_seconds:.2f}", times)
     return beyond <= pictures.TIE_SHARE * len(apart), words, cells
 
 

@@ -28,6 +28,27 @@ sphere { 0, 1 pigment { rgb <0.8, 0.2, 0.1> } finish { phong 0.6 } }
 #debug concat("clock ", str(clock, 0, 3), ", frame ", str(frame_number, 0, 0), " of ", str(final_frame, 0, 0), "\\n")
 """
 
+# What the manual of POV-Ray 3.7 names (Debian's povray-doc, chapter 3.2): keys, and switches without their values.
+KEYS = """
+All_Console All_File Antialias Antialias_Depth Antialias_Gamma Antialias_Threshold Append_File BSP_BaseAccessCost
+BSP_ChildAccessCost BSP_IsectCost BSP_MaxDepth BSP_MissChance Bits_Per_Color Bounding Bounding_Method Bounding_Threshold
+Clock Continue_Trace Create_Ini Cyclic_Animation Debug_Console Debug_File Declare Display Display_Gamma Dither
+Dither_Method Draw_Vistas End_Column End_Row Fatal_Console Fatal_Error_Command Fatal_Error_Return Fatal_File
+Field_Render File_Gamma Final_Clock Final_Frame Frame_Step Height Include_Header Initial_Clock Initial_Frame
+Input_File_Name Jitter Jitter_Amount Library_Path Light_Buffer Max_Image_Buffer_Memory Odd_Field Output_Alpha
+Output_File_Name Output_File_Type Output_to_File Palette Pause_When_Done Post_Frame_Command Post_Frame_Return
+Post_Scene_Command Post_Scene_Return Pre_Frame_Command Pre_Frame_Return Pre_Scene_Command Pre_Scene_Return
+Preview_End_Size Preview_Start_Size Quality Radiosity_File_Name Radiosity_From_File Radiosity_To_File
+Radiosity_Vain_Pretrace Remove_Bounds Render_Block_Size Render_Block_Step Render_Console Render_File Render_Pattern
+Sampling_Method Split_Unions Start_Column Start_Row Statistic_Console Statistic_File Subset_End_Frame Subset_Start_Frame
+Test_Abort Test_Abort_Count User_Abort_Command User_Abort_Return Verbose Version Video_Mode Vista_Buffer Warning_Console
+Warning_File Warning_Level Width Work_Threads
+"""
+SWITCHES = """
+A AG AM BM BS C D EC EF EP ER F GA GD GF GI GP GR GS GW H HI HR I J K KC KF KFF KFI KI L MB MI MV O P Q R RF RFI RFO RP
+RS RVP SC SF SP SR STP SU TH UA UD UF UL UO UR UV V W WT X
+"""
+
 
 def run(folder, *arguments, program=None, files=None, **environment):
     """Runs rtlang in a folder that then holds the scene and `files`; no povray.ini counts but one that is named."""
@@ -46,9 +67,16 @@ def check_messages():
              "a.ini": "b.ini\n", "b.ini": "+W8\n a.ini",
              "key.ini": "Width = 8\nHeigth=6\n",
              "value.ini": "[big]\nWidth=900\n[small]\n Width = \"wide\" ; not a number\n",
+             "scene.ini": "+W8 +H6\nInput_File_Name = nowhere.pov\n",
              "binary.ini": "s.pov\0+W8",
              "refused.ini": "; comment\nPost_Frame_Command=rm %o\n"}
     for what, words, said in [
+            ("a scene that is not there", ["scene.ini"],
+             "scene.ini:2:19: error[E0501]: scene file `nowhere.pov` not found\n"
+             "   2 | Input_File_Name = nowhere.pov\n     |                   ^~~~~~~~~~~\n"),
+            ("the same on the command line", ["+W8", "+Inowhere.pov"],
+             "command line:1:7: error[E0501]: scene file `nowhere.pov` not found\n"
+             "   1 | +W8 +Inowhere.pov\n     |       ^~~~~~~~~~~\n"),
             ("a switch", ["+Is.pov", "+Zfoo"],
              "command line:1:9: error[E0704]: POV-Ray has no switch `+Zfoo`\n"
              "   1 | +Is.pov +Zfoo\n     |         ^~~~~\n" + unknown),
@@ -213,6 +241,19 @@ def check_meant():
                       "     = help: rtlang --help lists the options\n"), "help: of something else")
 
 
+def check_manual():
+    """No key and no switch of the manual is unknown; each has its line in the help."""
+    with tempfile.TemporaryDirectory() as folder:
+        shown = run(folder, "--help=povray").stdout.decode()
+        for name in KEYS.split():
+            said = run(folder, "s.pov", "+W8", "+H6", f"{name}=1").stderr.decode()
+            tap.ok("E0704" not in said and re.search(rf"^  {name} ", shown, re.MULTILINE), f"the manual's {name}", said)
+        for name in SWITCHES.split():
+            said = run(folder, "+Is.pov", "+W8", "+H6", "+" + name).stderr.decode()
+            tap.ok("E0704" not in said and re.search(rf"^  \w+ +\+-?(?:\w+ \+)?{name}(?:x|\[|\s)", shown, re.MULTILINE),
+                   f"the manual's +{name}", said)
+
+
 def check_files():
     """Sections, comments, quotes, files within files, the header, libraries, and the file that says it all again."""
     with tempfile.TemporaryDirectory() as folder:
@@ -296,8 +337,8 @@ def check_interrupt():
 
 
 def main():
-    for check in (check_messages, check_warnings, check_streams, check_meant, check_files, check_frames, check_scenes,
-                  check_interrupt):
+    for check in (check_messages, check_warnings, check_streams, check_meant, check_manual, check_files, check_frames,
+                  check_scenes, check_interrupt):
         check()
     tap.done()
 

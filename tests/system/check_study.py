@@ -19,6 +19,7 @@ import xml.etree.ElementTree
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import chromium  # noqa: E402
 from tap import Tap
 
 RTLANG = os.path.abspath(os.environ["RTLANG"])
@@ -217,9 +218,26 @@ def test_writings(printed, methods, found):
     tap.ok(page.count("<svg class=\"plot\"") == 1 and all(name in page for name in methods) and "http://" not in
            page.replace("http://www.w3.org/2000/svg", ""), "the page has plot and table and asks for nothing")
     test_page(page, found, methods)
+    test_narrow(page)
     tap.ok(all(name in printed for name in methods), "the text names the methods", printed)
     tap.ok(re.search(r"arithmetic: rmse \S+ in double, \S+ in float", printed) and "model: not known" in printed and
            re.search(r"sampling: .* floor \S+", printed), "and tells the three kinds of error", printed)
+
+
+def test_narrow(page):
+    """A scene in a far folder, on a telephone."""
+    if not chromium.PROGRAM:
+        tap.skip("the page on a narrow screen", "chromium is not installed")
+        return
+    with open("narrow.html", "w", encoding="utf-8") as out:
+        out.write(page.replace("lens.scn", "/home/somebody/very/far/below/in_a_folder/" + "lens" * 12 + ".scn"))
+    browser = chromium.Chromium()
+    browser.set_view(400, 800, "dark")
+    browser.open("file://" + os.path.abspath("narrow.html"))
+    browser.wait_for("document.readyState === 'complete' && document.querySelector('nav a')")
+    tap.ok(browser.value("document.documentElement.scrollWidth <= innerWidth"), "nothing stands out of the page on a narrow screen",
+           browser.value("document.documentElement.scrollWidth"))
+    browser.close()
 
 
 def test_forward():

@@ -18,7 +18,7 @@ OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--n
 class Chromium:
     """One page. `requests` are the addresses that it asked for, `complaints` what it wrote to its console."""
 
-    def __init__(self):
+    def __init__(self, *options):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_read, self.out = os.pipe()
         self.inward, to_write = os.pipe()
@@ -26,7 +26,7 @@ class Chromium:
         os.set_inheritable(to_write, True)
         # It reads file 3 and writes file 4.
         line = f"exec \"$0\" \"$@\" 3<&{to_read} 4>&{to_write}"
-        self.process = subprocess.Popen(["bash", "-c", line, PROGRAM, *OPTIONS, "--remote-debugging-pipe",
+        self.process = subprocess.Popen(["bash", "-c", line, PROGRAM, *OPTIONS, *options, "--remote-debugging-pipe",
                                          f"--user-data-dir={self.profile.name}", "about:blank"], pass_fds=(to_read, to_write), stdin=subprocess.DEVNULL,
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_read)

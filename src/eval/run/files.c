@@ -6,7 +6,6 @@
 // Knows nothing of what is in the files.
 //
 // SPDX-License-Identifier: MIT
-#include <dirent.h>
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
@@ -351,21 +350,6 @@ bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there)
 
 // ---- a file that is not found
 
-static void offer_folder(Eval *ev, Suggest *suggest, const char *folder)
-{
-    DIR *directory = opendir(folder);
-    if (directory == NULL) {
-        return;
-    }
-    for (const struct dirent *entry; (entry = readdir(directory)) != NULL;) {
-        char *name = arena_copy_text(&ev->scratch, entry->d_name, strlen(entry->d_name));
-        if (name != NULL && name[0] != '.') {
-            suggest_offer(suggest, name);
-        }
-    }
-    closedir(directory);
-}
-
 // The name stands in the text as it is when it is one string.
 static void suggest_near_name(Eval *ev, const char *name, const AstNode *node)
 {
@@ -376,9 +360,9 @@ static void suggest_near_name(Eval *ev, const char *name, const AstNode *node)
         suggest_offer(&suggest, name_standard_file(i));
     }
     ArenaMark mark = arena_mark(&ev->scratch);
-    offer_folder(ev, &suggest, ".");
+    suggest_offer_folder(&suggest, &ev->scratch, ".");
     for (size_t i = 0; (folder = file_folder(ev, i)) != NULL; i++) {
-        offer_folder(ev, &suggest, folder);
+        suggest_offer_folder(&suggest, &ev->scratch, folder);
     }
     if (suggest.best != NULL) {
         diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
