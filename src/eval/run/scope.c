@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "eval/run/scope.h"
+#include "eval/values/kept.h"
 
 // So many names are looked at for suggestions in a run: a scene of a million names and faults gets no more.
 enum { LOOKED_AT_MOST = 1 << 26 };
@@ -48,6 +49,12 @@ void scope_pop(Eval *ev)
     for (Binding *local = level->locals; local != NULL; local = local->next) {
         if (local->name != SYMBOL_NONE) {
             scope->innermost.items[local->name] = local->hidden;
+        }
+        if (RT_UNLIKELY(local->is_counted)) {
+            local->array->reference_count--;
+        }
+        if (kept_is_owned(&local->own)) {
+            kept_give_back(ev, &local->own);
         }
     }
     memory_rewind(&scope->arena, level->mark);
@@ -115,7 +122,12 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
         return NULL;
     }
     bool is_innermost = level > 0 && level == scope->levels.count;
-    Binding *binding = arena_alloc(is_innermost ? &scope->arena : &ev->program, sizeof *binding);
+    Binding *binding = level == 0 ? scope->spare : NULL;
+    if (binding != NULL) {
+        scope->spare = binding->next;
+    } else {
+        binding = arena_alloc(is_innermost ? &scope->arena : &ev->program, sizeof *binding);
+    }
     if (binding == NULL) {
         eval_no_memory(ev, span);
         return NULL;
@@ -133,21 +145,13 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
     binding->name = name;
     binding->level = (uint32_t)level;
     binding->is_given = span.end > 0;
-    binding->is_used = false;
+    binding->is_used = binding->is_counted = false;
     if (level > 0) {
         binding->next = scope->levels.items[level - 1].locals;
         scope->levels.items[level - 1].locals = binding;
     }
     *place = binding;
     return binding;
-}
-
-// A local of the innermost level keeps its texts and arrays beside it; whatever may outlive that level keeps them to
-// the end.
-static Arena *arena_for(Eval *ev, const Binding *binding)
-{
-    bool is_innermost = binding->level > 0 && binding->level == ev->scope->levels.count;
-    return is_innermost && binding->variable == &binding->own ? &ev->scope->arena : &ev->program;
 }
 
 static Binding *find_or_make(Eval *ev, Symbol name, bool local, Span span)
@@ -223,10 +227,10 @@ bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span s
         return array_assign(ev, binding->array, binding->variable, value, span);
     }
     Value kept;
-    if (!value_store(ev, value, arena_for(ev, binding), span, &kept)) {
+    if (!value_store(ev, value, NULL, span, &kept)) {
         return false;
     }
-    *binding->variable = kept;
+    kept_replace(ev, binding->variable, &kept);
     return true;
 }
 
@@ -237,7 +241,7 @@ bool scope_bind_value(Eval *ev, Symbol name, const Value *value, Span span)
         value_set_number(&binding->own, value->number);
         return true;
     }
-    return binding != NULL && value_store(ev, value, &ev->scope->arena, span, &binding->own);
+    return binding != NULL && value_store(ev, value, NULL, span, &binding->own);
 }
 
 bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *array, Span span)
@@ -248,6 +252,10 @@ bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *ar
     }
     binding->variable = variable;
     binding->array = array;
+    binding->is_counted = array != NULL && array->arena == NULL;
+    if (binding->is_counted) {
+        array->reference_count++;
+    }
     return true;
 }
 
@@ -275,7 +283,30 @@ bool scope_undef(Eval *ev, Symbol name)
     }
     ev->scope->innermost.items[name] = binding->hidden;
     binding->name = SYMBOL_NONE;
+    // A local is still in the list of its level.
+    if (binding->level == 0) {
+        binding->next = ev->scope->undefined;
+        ev->scope->undefined = binding;
+        ev->kept.retired_bytes += sizeof *binding;
+    }
     return true;
+}
+
+void scope_settle(Eval *ev, uint64_t since)
+{
+    Scope *scope = ev->scope;
+    // A parameter of a call, or an argument of one that is about to begin, may stand for one of them.
+    bool is_outermost = since == 0 && scope->levels.count == 0;
+    while (is_outermost && scope->undefined != NULL) {
+        Binding *binding = scope->undefined;
+        scope->undefined = binding->next;
+        if (kept_is_owned(&binding->own)) {
+            kept_retire(ev, &binding->own);
+        }
+        binding->next = scope->spare;
+        scope->spare = binding;
+    }
+    kept_settle(ev, since);
 }
 
 Suggest scope_nearest(const Eval *ev, const AstNode *node)

@@ -17,6 +17,7 @@ struct Binding {
     uint32_t level;    // 0: global
     bool is_given;     // by the scene, not before it
     bool is_used;      // it was looked for since
+    bool is_counted;   // in `array`, as a reference
 };
 
 typedef struct Level {
@@ -29,6 +30,8 @@ struct Scope {
     ARRAY(Binding *) innermost;
     ARRAY(Level) levels; // level n is items[n - 1]
     uint64_t looked_at;  // names, for suggestions
+    Binding *undefined;  // globals whose own values are not given back yet
+    Binding *spare;      // others of them, for reuse
 };
 
 // The innermost meaning of a name, or NULL. This is not a use of it.
