@@ -42,6 +42,12 @@ bool scope_push(Eval *ev, Span span)
     return ARRAY_PUSH(&scope->levels, level) || eval_no_memory(ev, span);
 }
 
+// How many parameters stand for a variable: for an element of an array, or else for a name.
+static unsigned *references_to(Value *variable, ValueArray *array)
+{
+    return array != NULL ? &array->reference_count : &((Binding *)variable)->reference_count;
+}
+
 void scope_pop(Eval *ev)
 {
     Scope *scope = ev->scope;
@@ -50,10 +56,10 @@ void scope_pop(Eval *ev)
         if (local->name != SYMBOL_NONE) {
             scope->innermost.items[local->name] = local->hidden;
         }
-        if (RT_UNLIKELY(local->is_counted)) {
-            local->array->reference_count--;
+        if (local->is_counted) {
+            *references_to(local->variable, local->array) -= 1;
         }
-        if (kept_is_owned(&local->own)) {
+        if (RT_UNLIKELY(kept_is_owned(&local->own)) && !local->is_retired) {
             kept_give_back(ev, &local->own);
         }
     }
@@ -145,7 +151,8 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
     binding->name = name;
     binding->level = (uint32_t)level;
     binding->is_given = span.end > 0;
-    binding->is_used = binding->is_counted = false;
+    binding->is_used = binding->is_counted = binding->is_retired = false;
+    binding->reference_count = 0;
     if (level > 0) {
         binding->next = scope->levels.items[level - 1].locals;
         scope->levels.items[level - 1].locals = binding;
@@ -246,15 +253,19 @@ bool scope_bind_value(Eval *ev, Symbol name, const Value *value, Span span)
 
 bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *array, Span span)
 {
+    // An argument after it may have undefined its name, whose value is gone after the call began.
+    if (RT_UNLIKELY(array == NULL && ((Binding *)variable)->is_retired)) {
+        return scope_bind_value(ev, name, variable, span);
+    }
     Binding *binding = make(ev, name, ev->scope->levels.count, span);
     if (binding == NULL) {
         return false;
     }
     binding->variable = variable;
     binding->array = array;
-    binding->is_counted = array != NULL && array->arena == NULL;
+    binding->is_counted = array == NULL || array->arena == NULL;
     if (binding->is_counted) {
-        array->reference_count++;
+        *references_to(variable, array) += 1;
     }
     return true;
 }
@@ -275,6 +286,14 @@ bool scope_define_macro(Eval *ev, Macro *macro)
     return true;
 }
 
+static void retire_own(Eval *ev, Binding *binding)
+{
+    if (kept_is_owned(&binding->own) && !binding->is_retired) {
+        kept_retire(ev, &binding->own);
+    }
+    binding->is_retired = true;
+}
+
 bool scope_undef(Eval *ev, Symbol name)
 {
     Binding *binding = scope_binding(ev, name);
@@ -283,6 +302,9 @@ bool scope_undef(Eval *ev, Symbol name)
     }
     ev->scope->innermost.items[name] = binding->hidden;
     binding->name = SYMBOL_NONE;
+    if (binding->reference_count == 0) {
+        retire_own(ev, binding);
+    }
     // A local is still in the list of its level.
     if (binding->level == 0) {
         binding->next = ev->scope->undefined;
@@ -300,9 +322,7 @@ void scope_settle(Eval *ev, uint64_t since)
     while (is_outermost && scope->undefined != NULL) {
         Binding *binding = scope->undefined;
         scope->undefined = binding->next;
-        if (kept_is_owned(&binding->own)) {
-            kept_retire(ev, &binding->own);
-        }
+        retire_own(ev, binding);
         binding->next = scope->spare;
         scope->spare = binding;
     }

@@ -8,7 +8,7 @@
 
 typedef struct Binding Binding;
 struct Binding {
-    Value own;
+    Value own;         // the first member, see scope.c
     Value *variable;   // &own, or what a parameter by reference stands for
     ValueArray *array; // of which the variable is an element, or NULL
     Binding *hidden;   // the meaning of the same name further out
@@ -17,7 +17,9 @@ struct Binding {
     uint32_t level;    // 0: global
     bool is_given;     // by the scene, not before it
     bool is_used;      // it was looked for since
-    bool is_counted;   // in `array`, as a reference
+    bool is_retired;   // what `own` owns, see values/kept.h
+    bool is_counted;   // as a reference, by the array or by the binding that it stands for
+    unsigned reference_count;
 };
 
 typedef struct Level {
