@@ -45,6 +45,8 @@ typedef struct TreeNode {
 
 enum { CSG_PLAIN_MOST = 8 };
 
+typedef struct CsgParts CsgParts; // csg_parts.h
+
 typedef struct CsgTree {
     uint32_t first_node, node_count;
     uint32_t first_solid, solid_count;
@@ -53,6 +55,7 @@ typedef struct CsgTree {
     bool is_plain; // all of a few convex solids in one node
     uint32_t order;
     uint32_t seen_count; // its solids from there on only clip others
+    CsgParts *parts;     // of many; NULL: they are few; owned
 } CsgTree;
 
 // What stands for itself: a solid, or a CSG tree when the number is not below solid_count; of a ball with a bit that
