@@ -11,6 +11,7 @@
 #include "eval/build/plan.h"
 #include "eval/build/probe.h"
 #include "eval/eval.h"
+#include "eval/values/kept.h"
 
 // Levels of native recursion for each level that a text may nest: room for calls within calls.
 enum { DEEPENING_PER_AST_LEVEL = 6 };
@@ -95,6 +96,7 @@ static void init(Eval *ev, const EvalOptions *options, Scene *scene)
     arena_init_shared(&ev->program, &ev->memory);
     arena_init_shared(&ev->scratch, &ev->memory);
     text_init(&ev->line);
+    kept_init(ev);
 }
 
 static void fini(Eval *ev)
@@ -112,6 +114,7 @@ static void fini(Eval *ev)
     ARRAY_FREE(&ev->streams);
     ARRAY_FREE(&ev->pasted);
     ARRAY_FREE(&ev->reported);
+    kept_fini(ev);
     arena_fini(&ev->scratch);
     arena_fini(&ev->program);
     arena_fini(&ev->parse);

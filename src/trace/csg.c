@@ -9,7 +9,7 @@
 // alone: most rays end there.
 //
 // SPDX-License-Identifier: MIT
-#include "trace/shapes.h"
+#include "trace/csg_parts.h"
 
 #include <string.h>
 
@@ -40,6 +40,8 @@ typedef struct CsgTraversal {
     double nearest_share;  // none of these that is left is nearer than this share of its t; 0: not known
     double greatest_bound; // of these; less than 0: not known
     uint32_t *inside;      // for each node
+    uint64_t *met;         // a bit for each leaf that was asked, where parts have a tree
+    double reached;        // leaves whose boxes are entered behind that have not been asked yet
     bool *is_inside;       // for each solid, PART_INVERSE minded; while crossings are found: if the ray starts inside
     Ray *objects;          // the ray in each solid's space, but for planes
     Crossing *crossings;   // a heap by t, then by number
@@ -393,19 +395,28 @@ static bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Forem
     return seen;
 }
 
-// Puts all leaves into the states that they have where the ray starts.
+static void traversal_set_state(CsgTraversal *p, uint32_t index)
+{
+    bool is_inside = p->is_inside[index];
+    p->is_inside[index] = traversal_solid(p, index)->flags & PART_INVERSE;
+    if (is_inside) {
+        traversal_toggle(p, index);
+    }
+}
+
+// Puts all leaves into the states that they have where the ray starts, but for those in a tree, which have theirs when
+// they are asked: nobody looks at the others.
 static void traversal_set_states(CsgTraversal *p)
 {
     const CsgTree *csg = p->csg;
     for (uint32_t i = 0; i < csg->node_count; i++) {
         p->inside[i] = p->table->nodes[csg->first_node + i].idle_inside;
     }
-    for (uint32_t i = 0; i < csg->solid_count; i++) {
-        bool is_inside = p->is_inside[i];
-        p->is_inside[i] = traversal_solid(p, i)->flags & PART_INVERSE;
-        if (is_inside) {
-            traversal_toggle(p, i);
-        }
+    for (uint32_t i = 0; i < csg->solid_count && !csg->parts; i++) {
+        traversal_set_state(p, i);
+    }
+    for (uint32_t i = 0; csg->parts && i < csg->parts->loose_count; i++) {
+        traversal_set_state(p, csg->parts->loose[i]);
     }
 }
 
@@ -437,22 +448,33 @@ static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
     return t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
 }
 
-// Finds the crossings. Mostly it turns out on the way that nothing can be seen before the limit, whatever clips it.
-static void traversal_begin(CsgTraversal *p, RayStart start, double limit)
+static void traversal_ask(CsgTraversal *p, uint32_t index, RayStart start)
 {
     const CsgTree *csg = p->csg;
     bool is_own = starts_on_part(start) && table_part(p->table, start.shape) - csg->first_solid < csg->solid_count;
-    for (uint32_t i = 0; i < csg->solid_count && !p->is_over; i++) {
-        p->is_inside[i] = false;
-        if (RT_UNLIKELY(solid_is_mesh(traversal_solid(p, i)))) {
-            traversal_mesh_begin(p, i);
-        } else if (solid_is_flat(traversal_solid(p, i))) {
-            traversal_flat(p, i, start);
-        } else {
-            traversal_solid_begin(p, i, start, is_own);
-        }
-        if (i + 1 == csg->seen_count) {
-            p->is_over = p->is_over || isinf(p->first_surface) || traversal_is_beyond(p, p->first_surface, limit);
+    p->is_inside[index] = false;
+    if (RT_UNLIKELY(solid_is_mesh(traversal_solid(p, index)))) {
+        traversal_mesh_begin(p, index);
+    } else if (solid_is_flat(traversal_solid(p, index))) {
+        traversal_flat(p, index, start);
+    } else {
+        traversal_solid_begin(p, index, start, is_own);
+    }
+}
+
+// When all that can be seen has been asked: mostly it turns out that nothing is before the limit, whatever clips it.
+static void traversal_judge_seen(CsgTraversal *p, double limit)
+{
+    p->is_over = p->is_over || isinf(p->first_surface) || traversal_is_beyond(p, p->first_surface, limit);
+}
+
+// Finds the crossings.
+static void traversal_begin(CsgTraversal *p, RayStart start, double limit)
+{
+    for (uint32_t i = 0; i < p->csg->solid_count && !p->is_over; i++) {
+        traversal_ask(p, i, start);
+        if (i + 1 == p->csg->seen_count) {
+            traversal_judge_seen(p, limit);
         }
     }
 }
@@ -463,6 +485,61 @@ static void traversal_order(CsgTraversal *p)
     for (uint32_t i = p->count / 2; i-- > 0;) {
         heap_sift(p, i);
     }
+}
+
+// ---- many parts, with a tree
+
+static uint32_t csg_words(const CsgTree *csg)
+{
+    return (csg->solid_count - 1) / 64 + 1;
+}
+
+// How far leaves are asked first: mostly the first surface of the loose parts is seen, and what lies behind it matters
+// to nobody. Without one they are asked all at once.
+static double traversal_first_reach(CsgTraversal *p)
+{
+    for (uint32_t i = 0; i < p->count; i++) {
+        Crossing *c = &p->crossings[i];
+        double until = c->t + 2.0 * crossing_bound(p, c);
+        if (c->has_surface && c->t == p->first_surface && until < (double)INFINITY) {
+            return until;
+        }
+    }
+    return (double)INFINITY;
+}
+
+// Asks the loose parts, all that are seen perhaps among them.
+static void traversal_begin_loose(CsgTraversal *p, RayStart start, double limit)
+{
+    const CsgParts *parts = p->csg->parts;
+    for (uint32_t i = 0; i < parts->loose_count && !p->is_over; i++) {
+        traversal_ask(p, parts->loose[i], start);
+    }
+    if (!p->is_over && parts->are_leaves_unseen) {
+        traversal_judge_seen(p, limit);
+    }
+    memset(p->met, 0, csg_words(p->csg) * sizeof *p->met);
+    p->reached = p->is_over ? 0.0 : traversal_first_reach(p);
+}
+
+// Asks all leaves whose boxes are entered up to a place, but for those that were asked before.
+static void traversal_reach(CsgTraversal *p, RayStart start, double until)
+{
+    uint32_t words = csg_words(p->csg);
+    uint64_t met[words];
+    memset(met, 0, sizeof met);
+    csg_parts_along(p->csg->parts, p->ray, until, met);
+    for (uint32_t word = 0; word < words; word++) {
+        for (uint64_t rest = met[word] & ~p->met[word]; rest && !p->is_over; rest &= rest - 1) {
+            uint32_t index = 64 * word + (uint32_t)__builtin_ctzll(rest);
+            traversal_ask(p, index, start);
+            traversal_set_state(p, index);
+        }
+        p->met[word] |= met[word];
+    }
+    p->reached = until;
+    p->greatest_bound = -1.0;
+    p->nearest_share = 0.0;
 }
 
 // ---- one node of convex leaves
@@ -605,8 +682,11 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
                       .objects = objects,
                       .crossings = crossings,
                       .cursors = cursors,
+                      .reached = (double)INFINITY,
                       .decided_until = (double)INFINITY};
-    traversal_begin(&p, start, first->limit);
+    uint64_t met[csg->parts ? csg_words(csg) : 1];
+    p.met = met;
+    (csg->parts ? traversal_begin_loose : traversal_begin)(&p, start, first->limit);
     if (p.is_over) {
         return;
     }
@@ -614,8 +694,19 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
         return;
     }
     traversal_set_states(&p);
+    if (csg->parts) {
+        traversal_reach(&p, start, p.reached);
+    }
     traversal_order(&p);
-    while (!p.is_over && p.count > 0 && !traversal_is_beyond(&p, crossings[0].t, first->limit)) {
+    while (!p.is_over) {
+        if (!(p.reached >= (p.count > 0 ? crossings[0].t : (double)INFINITY))) {
+            traversal_reach(&p, start, (double)INFINITY);
+            traversal_order(&p);
+            continue;
+        }
+        if (p.count == 0 || traversal_is_beyond(&p, crossings[0].t, first->limit)) {
+            return;
+        }
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
         Crossing earliest = crossings[begin];

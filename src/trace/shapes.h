@@ -46,6 +46,8 @@ typedef struct TreeNode {
 
 enum { CSG_PLAIN_MOST = 8 };
 
+typedef struct CsgParts CsgParts; // csg_parts.h
+
 typedef struct CsgTree {
     uint32_t first_node, node_count;
     uint32_t first_solid, solid_count;
@@ -55,6 +57,7 @@ typedef struct CsgTree {
     uint32_t order;
     uint32_t seen_count; // its solids from there on only clip others
     uint32_t mesh_count;
+    CsgParts *parts;     // of many; NULL: they are few; owned
 } CsgTree;
 
 // What stands for itself: a solid, or a CSG tree when the number is not below solid_count; of a ball with a bit that

@@ -5,9 +5,8 @@
 #include <stdlib.h>
 
 #include "scene/part.h"
-#include "trace/bounds.h"
+#include "trace/csg_parts.h"
 #include "trace/half_spaces.h"
-#include "trace/shapes.h"
 
 enum {
     LOOSE_MOST = 8,  // items that are asked for each ray for being far from all others
@@ -362,11 +361,14 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
         }
     }
     for (uint32_t i = 0; i < table->csg_count; i++) {
-        const CsgTree *csg = &table->csg_trees[i];
+        CsgTree *csg = &table->csg_trees[i];
         Bounds *root = &work->nodes[csg->first_node];
         *root = csg_measure(table, csg, work->solids, work->nodes);
         if (csg->solid_count > 0) {
             add_item(table, work, table->solid_count + i, root);
+        }
+        if (!csg_parts_init(table, csg, work->solids, threads)) {
+            return false;
         }
     }
     part_with_far(table, work);
@@ -379,7 +381,7 @@ static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
     size_t most = scene->parts.count + scene->composites.count;
     work->nodes = malloc((scene->nodes.count + 1) * sizeof *work->nodes);
     table->nodes = malloc((scene->nodes.count + 1) * sizeof *table->nodes);
-    table->csg_trees = malloc((scene->composites.count + 1) * sizeof *table->csg_trees);
+    table->csg_trees = calloc(scene->composites.count + 1, sizeof *table->csg_trees); // without trees of parts
     if (!work->nodes || !table->nodes || !table->csg_trees ||
         !pages_take(&work->solid_pages, scene->parts.count * sizeof *work->solids) ||
         !pages_take(&work->bounded_pages, most * sizeof *work->bounded) ||
@@ -428,6 +430,9 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
 
 void shapes_fini(ShapeTable *table)
 {
+    for (uint32_t i = 0; table->csg_trees && i < table->csg_count; i++) {
+        csg_parts_fini(&table->csg_trees[i]);
+    }
     free(table->nodes);
     free(table->csg_trees);
     for (uint32_t i = 0; i < table->mesh_count; i++) {
@@ -444,11 +449,14 @@ void shapes_fini(ShapeTable *table)
 
 size_t shapes_bytes(const ShapeTable *table)
 {
-    size_t meshes = 0;
+    size_t own = 0;
     for (uint32_t i = 0; i < table->mesh_count; i++) {
-        meshes += mesh_table_bytes(table->meshes[i]);
+        own += mesh_table_bytes(table->meshes[i]);
     }
-    return meshes + table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
+    for (uint32_t i = 0; i < table->csg_count; i++) {
+        own += csg_parts_bytes(&table->csg_trees[i]);
+    }
+    return own + table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
            table->csg_count * sizeof *table->csg_trees +
            (table->unbounded_count + table->bounded_count) * sizeof *table->items +
            table->bounded_count * sizeof *table->boxes + table->tree.node_count * sizeof *table->tree.nodes;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Nothing costs more than in proportion: messages, names, included files, the length of a line; and what a sphere takes.
+"""Nothing costs more than in proportion: messages, names, included files, the length of a line; what a sphere takes; and what
+variables owned before is given back.
 
 Instructions are counted by valgrind's cachegrind, so that no clock and no other load decides. The cost of ten times as much
 text may be GROWTH times as high; tables that double and caches of the allocator take the rest, and a quadratic part would make it
@@ -50,6 +51,26 @@ CASES = {
     "unknown names after a missing file": ((), lambda count: ['#include "none.inc"\n'] +
                                            [f"sphere {{ N{i}, 1 }}\n" for i in range(count)], 3),
     "names that are nearly a property": ((), misspelt, 1),
+    "arrays copied": ((), lambda count: ["#declare A = array[20]; #declare A[0] = 1;\n", f"#for (I, 1, {count}) #declare B = A; #end\n"], 0),
+}
+
+# What is done to a text, an array of texts or an array so often that all values together would take 70 MB and more:
+# (before, what is done, TURNS times).
+FREED_MOST, FREED_TURNS = 4096, 3000  # kilobytes more than one turn takes
+FREED_HEAD = """#version 3.7; #declare S = ""; #declare A = array[200]; #declare A[0] = 1; #declare C = array[2];
+#macro Turn(P)
+  #declare S = concat(S, "x"); #declare B = A; #declare C[1] = A; #undef B #declare D = array[2] { S, S } #local E = A;
+#end
+#macro Turns(P) #for (I, 1, TURNS) Turn(P) #local L = A; #declare S = concat(S, "y"); #end #end
+#macro Value(P) #for (I, 1, TURNS) #declare S = concat(S, "x"); #declare B = A; #local L = A; #end P #end
+#macro Torn(P) sphere { 0, #for (I, 1, TURNS) #declare S = concat(S, "x"); #declare B = A; #end #if (P) 1 } #else 2 } #end #end
+"""
+FREED = {
+    "values at the top": "#for (I, 1, TURNS) Turn(1) #end",
+    "values in macros with an element as their argument": "Turns(A[0])",
+    "values in a block": "union { sphere { 0, 1 } Turns(A[0]) sphere { 1, 1 } }",
+    "values in an expression": "#declare R = 2 * Value(A[0]);",
+    "values in a text that a branch tears": "Torn(A[0])",
 }
 
 
@@ -114,12 +135,30 @@ def peak(folder, count):
     return usage.ru_maxrss if child.returncode == 0 else float("inf")
 
 
+def peak_of(folder, text):
+    """Kilobytes of a check of a scene."""
+    write_scene(folder, [text])
+    with subprocess.Popen([PROGRAM, "-q", "--check", "s.scn"], cwd=folder, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as child:
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+    return usage.ru_maxrss if child.returncode == 0 else float("inf")
+
+
+def check_freed(tap, folder):
+    """A line for each of FREED: the peak with many turns is that with one."""
+    for name, body in FREED.items():
+        text = FREED_HEAD + body + " sphere { 0, strlen(S) }\n"
+        few, many = (peak_of(folder, text.replace("TURNS", str(turns))) for turns in (1, FREED_TURNS))
+        tap.ok(many - few <= FREED_MOST, f"{name}: {FREED_TURNS} turns take {many - few} kB more than one, at most {FREED_MOST}")
+
+
 def check_memory(tap, folder):
     """What a sphere takes at the peak, when its record is in memory beside what the tree is built from."""
     with open(PROGRAM, "rb") as file:
         if re.search(rb"__[atm]san_init", file.read()):
-            tap.skip("memory of a sphere", "sanitizers take more")
+            tap.skip("memory of values and of a sphere", "sanitizers take more")
             return
+    check_freed(tap, folder)
     each = (peak(folder, 2 * SPHERES) - peak(folder, SPHERES)) * 1024 / SPHERES
     tap.ok(each <= SPHERE_BYTES, f"{SPHERES} more spheres take {each:.0f} bytes each, at most {SPHERE_BYTES}")
 

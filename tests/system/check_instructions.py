@@ -5,8 +5,8 @@ The certified sphere test costs at most 1.6 times the instructions of the textbo
 vectors, and takes the way of double-word arithmetic in no ordinary scene; a scene without sky and fog runs nothing of
 either; the kernel that is chosen for a scene executes what one does that was compiled with nothing but what the scene
 has; the error of a sampled picture costs at most some 2 % of the sampling; spheres that a loop reads or computes cost a
-share of what they cost the usual way; stretched spheres cost at most twice what plain ones do; and rays that miss a
-polyhedron of planes ask none of them. Counted by callgrind, so that no clock decides. The bars are of gcc's code; where
+share of what they cost the usual way; stretched spheres cost at most twice what plain ones do; rays that miss a
+polyhedron of planes ask none of them; and ten times as many parts of one composite cost a ray at most twice as much. Counted by callgrind, so that no clock decides. The bars are of gcc's code; where
 clang's takes more, the bar of its own stands beside.
 SPDX-License-Identifier: MIT
 """
@@ -249,6 +249,29 @@ def judge_polyhedra(tap, folder):
     tap.ok(own <= boxed, f"polyhedra of planes take {own / boxed:.2f} times the instructions of those cut with boxes")
 
 
+# Composites of many parts: what stands before and behind the parts.
+MANY_PARTS = {"a box without a union of spheres": ("difference { box { -1, 1 } union {", "} }"), "a merge of spheres": ("merge {", "}"),
+              "an intersection with a union of spheres": ("intersection { box { -1, 1 } union {", "} }")}
+PARTS_COUNTS, PARTS_BAR = (200, 2000), 2.0
+
+
+def judge_parts(tap, folder):
+    """A line for each of MANY_PARTS: rays ask the parts alone whose boxes they meet. The parts together take the same room."""
+    for name, (before, behind) in MANY_PARTS.items():
+        taken = []
+        for count in PARTS_COUNTS:
+            draw = random.Random(count)
+            parts = "\n".join(f"sphere {{ <{draw.uniform(-1, 1):.4f}, {draw.uniform(-1, 1):.4f}, {draw.uniform(-1, 1):.4f}>, {0.6 / count ** (1 / 3):.4f} }}"
+                              for _ in range(count))
+            text = f"camera {{ location <0.3, 0.4, -4> look_at 0 }} light_source {{ <20, 30, -20> rgb 1 }}\n{before}\n{parts}\n{behind}"
+            taken.append(scene_instructions(text, "render_film", folder, "-W32", "-H24"))
+        if not all(taken):
+            tap.skip(name, "callgrind does not run rtlang")
+            continue
+        ratio = taken[1] / taken[0]
+        tap.ok(ratio <= PARTS_BAR, f"{name}: ten times as many take {ratio:.2f} times the instructions, at most {PARTS_BAR}")
+
+
 def main():
     tap = Tap()
     if not VALGRIND:
@@ -267,6 +290,7 @@ def main():
         judge_repeated(tap, folder)
         judge_stretched(tap, folder)
         judge_polyhedra(tap, folder)
+        judge_parts(tap, folder)
     return tap.done()
 
 

@@ -89,7 +89,7 @@ bool array_create(Eval *ev, const AstNode *node, Value *value)
     if (array == NULL) {
         return eval_no_memory(ev, node->span);
     }
-    *array = (ValueArray){0};
+    *array = (ValueArray){.arena = &ev->scratch};
     if (!read_sizes(ev, node, array)) {
         return false;
     }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "eval/run/expansion.h"
+#include "eval/values/kept.h"
 
 enum { CURSOR_WEIGHT = 4 }; // of native recursion, see eval_deepen
 
@@ -73,7 +74,7 @@ void cursor_pop(Cursor *cursor)
 
 void cursor_open(Cursor *cursor, Eval *ev, const AstNode *items, Span span)
 {
-    *cursor = (Cursor){.ev = ev, .span = span};
+    *cursor = (Cursor){.ev = ev, .span = span, .since = ev->kept.births};
     cursor->counted = eval_deepen(ev, CURSOR_WEIGHT, span);
     if (cursor->counted) {
         cursor_push(cursor, FRAME_ITEMS, items, NULL);
@@ -251,6 +252,9 @@ const AstNode *cursor_advance(Cursor *cursor)
     cursor->has_comma = cursor->has_comma && cursor->frame == NULL;
     cursor->is_cut = cursor->is_cut && cursor->frame == NULL;
     while (cursor->frame != NULL && !ev->stop) {
+        if (RT_UNLIKELY(kept_is_due(ev))) {
+            scope_settle(ev, cursor->since);
+        }
         const AstNode *item = take_next(cursor);
         if (item == NULL) {
             bool is_text = cursor->frame->kind == FRAME_MACRO || cursor->frame->kind == FRAME_INCLUDE;

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "eval/run/scope.h"
+#include "eval/values/kept.h"
 
 // Measured: before it numbers have operators in parentheses only, so that <1 -2 3> is a vector of three.
 static const double VERSION_OF_OPERATORS = 1.5;
@@ -181,6 +182,9 @@ static void run_undef(Cursor *cursor, const AstNode *node)
     Value *element;
     ValueArray *array;
     if (array_locate(ev, node->a, &element, &array)) {
+        if (array->arena == NULL && kept_is_owned(element)) {
+            kept_retire(ev, element);
+        }
         element->kind = VALUE_NONE;
     }
 }

@@ -68,6 +68,7 @@ void eval_item(Eval *ev, const AstNode *item)
     const AstNode *found;
     cursor_open(&cursor, ev, item, item->span);
     cursor.top = true;
+    cursor.since = 0;
     while ((found = cursor_peek(&cursor)) != NULL) {
         bool is_told = (item->flags & AST_AFTER_COMMA) || ev->lacks_brace || found->kind != AST_BLOCK;
         ev->faulty = (!is_told && !cursor_lacks_comma(&cursor, "the scene")) || ev->faulty;

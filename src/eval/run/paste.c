@@ -147,7 +147,7 @@ static bool read_value(Eval *ev, const AstNode *node, Expansion *expansion, Valu
 // Begins to read a text, from a cursor that is closed after it; NULL after a fault.
 static Expansion *begin(Eval *ev, Cursor *cursor, const AstNode *node, bool is_inner)
 {
-    *cursor = (Cursor){.ev = ev, .span = node->span, .top = true};
+    *cursor = (Cursor){.ev = ev, .span = node->span, .top = true, .since = ev->kept.births};
     const GrammarText *text = text_of(ev, node->span);
     CursorFrame *frame = text != NULL ? cursor_push(cursor, FRAME_ITEMS, NULL, NULL) : NULL;
     if (frame == NULL) {

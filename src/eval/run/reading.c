@@ -228,7 +228,7 @@ static bool push_torn(Expansion *expansion, uint64_t begin, const Token *torn)
 static bool read_torn(void *client, GrammarState *live, uint64_t begin, const Token *torn, bool *is_refused)
 {
     Eval *ev = eval_of(client);
-    Cursor cursor = {.ev = ev, .top = true};
+    Cursor cursor = {.ev = ev, .top = true, .since = ev->kept.births};
     CursorFrame *frame = cursor_push(&cursor, FRAME_LIVE, NULL, NULL);
     if (frame == NULL) {
         return false;

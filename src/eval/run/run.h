@@ -81,6 +81,8 @@ bool scope_is_reference(const Eval *ev, Symbol name);
 
 bool scope_define_macro(Eval *ev, Macro *macro) RT_MUST_CHECK;
 bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
+// Between two items of a cursor, see its `since`: gives back what values that are gone owned.
+void scope_settle(Eval *ev, uint64_t since);
 // Of the names in scope and the reserved words that could stand in the place of a NAME or CALL, the nearest.
 Suggest scope_nearest(const Eval *ev, const AstNode *node);
 // The first file of the include folders that declares a name, of NAME_MAX + 1 bytes; false when none does.
@@ -176,6 +178,7 @@ struct Cursor {
     bool is_call;        // the items are those of a macro, which #break leaves
     unsigned ends;       // how many do
     ArenaMark mark;
+    uint64_t since; // what was stored later nobody outside of it sees, see values/kept.h
     struct Expansion *expansion; // of the text that the innermost frames walk; NULL: they walk nodes
 };
 

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "eval/run/scope.h"
+#include "eval/values/kept.h"
 
 // So many names are looked at for suggestions in a run: a scene of a million names and faults gets no more.
 enum { LOOKED_AT_MOST = 1 << 26 };
@@ -41,6 +42,12 @@ bool scope_push(Eval *ev, Span span)
     return ARRAY_PUSH(&scope->levels, level) || eval_no_memory(ev, span);
 }
 
+// How many parameters stand for a variable: for an element of an array, or else for a name.
+static unsigned *references_to(Value *variable, ValueArray *array)
+{
+    return array != NULL ? &array->reference_count : &((Binding *)variable)->reference_count;
+}
+
 void scope_pop(Eval *ev)
 {
     Scope *scope = ev->scope;
@@ -48,6 +55,12 @@ void scope_pop(Eval *ev)
     for (Binding *local = level->locals; local != NULL; local = local->next) {
         if (local->name != SYMBOL_NONE) {
             scope->innermost.items[local->name] = local->hidden;
+        }
+        if (local->is_counted) {
+            *references_to(local->variable, local->array) -= 1;
+        }
+        if (RT_UNLIKELY(kept_is_owned(&local->own)) && !local->is_retired) {
+            kept_give_back(ev, &local->own);
         }
     }
     memory_rewind(&scope->arena, level->mark);
@@ -115,7 +128,12 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
         return NULL;
     }
     bool is_innermost = level > 0 && level == scope->levels.count;
-    Binding *binding = arena_alloc(is_innermost ? &scope->arena : &ev->program, sizeof *binding);
+    Binding *binding = level == 0 ? scope->spare : NULL;
+    if (binding != NULL) {
+        scope->spare = binding->next;
+    } else {
+        binding = arena_alloc(is_innermost ? &scope->arena : &ev->program, sizeof *binding);
+    }
     if (binding == NULL) {
         eval_no_memory(ev, span);
         return NULL;
@@ -133,21 +151,14 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
     binding->name = name;
     binding->level = (uint32_t)level;
     binding->is_given = span.end > 0;
-    binding->is_used = false;
+    binding->is_used = binding->is_counted = binding->is_retired = false;
+    binding->reference_count = 0;
     if (level > 0) {
         binding->next = scope->levels.items[level - 1].locals;
         scope->levels.items[level - 1].locals = binding;
     }
     *place = binding;
     return binding;
-}
-
-// A local of the innermost level keeps its texts and arrays beside it; whatever may outlive that level keeps them to
-// the end.
-static Arena *arena_for(Eval *ev, const Binding *binding)
-{
-    bool is_innermost = binding->level > 0 && binding->level == ev->scope->levels.count;
-    return is_innermost && binding->variable == &binding->own ? &ev->scope->arena : &ev->program;
 }
 
 static Binding *find_or_make(Eval *ev, Symbol name, bool local, Span span)
@@ -223,10 +234,10 @@ bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span s
         return array_assign(ev, binding->array, binding->variable, value, span);
     }
     Value kept;
-    if (!value_store(ev, value, arena_for(ev, binding), span, &kept)) {
+    if (!value_store(ev, value, NULL, span, &kept)) {
         return false;
     }
-    *binding->variable = kept;
+    kept_replace(ev, binding->variable, &kept);
     return true;
 }
 
@@ -237,17 +248,25 @@ bool scope_bind_value(Eval *ev, Symbol name, const Value *value, Span span)
         value_set_number(&binding->own, value->number);
         return true;
     }
-    return binding != NULL && value_store(ev, value, &ev->scope->arena, span, &binding->own);
+    return binding != NULL && value_store(ev, value, NULL, span, &binding->own);
 }
 
 bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *array, Span span)
 {
+    // An argument after it may have undefined its name, whose value is gone after the call began.
+    if (RT_UNLIKELY(array == NULL && ((Binding *)variable)->is_retired)) {
+        return scope_bind_value(ev, name, variable, span);
+    }
     Binding *binding = make(ev, name, ev->scope->levels.count, span);
     if (binding == NULL) {
         return false;
     }
     binding->variable = variable;
     binding->array = array;
+    binding->is_counted = array == NULL || array->arena == NULL;
+    if (binding->is_counted) {
+        *references_to(variable, array) += 1;
+    }
     return true;
 }
 
@@ -267,6 +286,14 @@ bool scope_define_macro(Eval *ev, Macro *macro)
     return true;
 }
 
+static void retire_own(Eval *ev, Binding *binding)
+{
+    if (kept_is_owned(&binding->own) && !binding->is_retired) {
+        kept_retire(ev, &binding->own);
+    }
+    binding->is_retired = true;
+}
+
 bool scope_undef(Eval *ev, Symbol name)
 {
     Binding *binding = scope_binding(ev, name);
@@ -275,7 +302,31 @@ bool scope_undef(Eval *ev, Symbol name)
     }
     ev->scope->innermost.items[name] = binding->hidden;
     binding->name = SYMBOL_NONE;
+    if (binding->reference_count == 0) {
+        retire_own(ev, binding);
+    }
+    // A local is still in the list of its level.
+    if (binding->level == 0) {
+        binding->next = ev->scope->undefined;
+        ev->scope->undefined = binding;
+        ev->kept.retired_bytes += sizeof *binding;
+    }
     return true;
+}
+
+void scope_settle(Eval *ev, uint64_t since)
+{
+    Scope *scope = ev->scope;
+    // A parameter of a call, or an argument of one that is about to begin, may stand for one of them.
+    bool is_outermost = since == 0 && scope->levels.count == 0;
+    while (is_outermost && scope->undefined != NULL) {
+        Binding *binding = scope->undefined;
+        scope->undefined = binding->next;
+        retire_own(ev, binding);
+        binding->next = scope->spare;
+        scope->spare = binding;
+    }
+    kept_settle(ev, since);
 }
 
 Suggest scope_nearest(const Eval *ev, const AstNode *node)

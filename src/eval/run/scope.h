@@ -8,7 +8,7 @@
 
 typedef struct Binding Binding;
 struct Binding {
-    Value own;
+    Value own;         // the first member, see scope.c
     Value *variable;   // &own, or what a parameter by reference stands for
     ValueArray *array; // of which the variable is an element, or NULL
     Binding *hidden;   // the meaning of the same name further out
@@ -17,6 +17,9 @@ struct Binding {
     uint32_t level;    // 0: global
     bool is_given;     // by the scene, not before it
     bool is_used;      // it was looked for since
+    bool is_retired;   // what `own` owns, see values/kept.h
+    bool is_counted;   // as a reference, by the array or by the binding that it stands for
+    unsigned reference_count;
 };
 
 typedef struct Level {
@@ -29,6 +32,8 @@ struct Scope {
     ARRAY(Binding *) innermost;
     ARRAY(Level) levels; // level n is items[n - 1]
     uint64_t looked_at;  // names, for suggestions
+    Binding *undefined;  // globals whose own values are not given back yet
+    Binding *spare;      // others of them, for reuse
 };
 
 // The innermost meaning of a name, or NULL. This is not a use of it.

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "eval/run/expansion.h"
+#include "eval/values/kept.h"
 
 // ---- macros and files
 
@@ -182,6 +183,9 @@ static void run_simple(Expansion *expansion, const Token *directive)
 {
     Eval *ev = expansion_eval(expansion);
     bool within = expansion->is_open || expansion->within;
+    if (RT_UNLIKELY(kept_is_due(ev))) {
+        scope_settle(ev, expansion->cursor->since);
+    }
     ArenaMark mark = arena_mark(&ev->parse);
     expansion_unread(expansion, directive);
     unsigned own = expansion_own_place(expansion);

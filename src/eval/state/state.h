@@ -33,6 +33,7 @@ typedef struct FileState FileState;     // run/files.c
 typedef struct DataFile DataFile;       // run/datafile.c
 typedef struct Lint Lint;               // run/lint.c
 typedef struct Origins Origins;         // run/origin.c
+typedef struct KeptBlock KeptBlock;     // values/kept.c
 typedef struct ObjectState ObjectState; // build/blocks.h: default texture, scratch of the objects
 typedef struct Painted Painted;         // build/painted.c
 typedef struct GrammarText GrammarText; // grammar/grammar.h
@@ -96,6 +97,16 @@ typedef struct PlanPlace {
 } PlanPlace;
 enum { PLAN_PLACES = 32 };
 
+// What variables own, see values/kept.h.
+enum { KEPT_CLASSES = 80 };
+typedef struct KeptStore {
+    KeptBlock *free[KEPT_CLASSES];
+    KeptBlock *retired;       // nobody owns them any more, but somebody may see them
+    struct LargeBlock *large; // in use
+    size_t retired_bytes, settle_at;
+    uint64_t births;          // how often something was stored
+} KeptStore;
+
 struct Eval {
     EvalOptions options;
     const EvalText *text;
@@ -106,6 +117,7 @@ struct Eval {
     Arena parse;   // the AST of the current top-level item
     Arena program; // macros and everything declared, until the end
     Arena scratch; // temporaries of the current top-level item
+    KeptStore kept; // texts and arrays of variables
     Scope *scope;
     ObjectState *objects;
     FileState *files;

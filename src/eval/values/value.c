@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
+#include "eval/values/kept.h"
 #include "eval/values/values.h"
 #include "scene/schema.h"
 
@@ -99,17 +100,34 @@ bool value_array(Eval *ev, const Value *value, Span span)
     return value->kind == VALUE_ARRAY || fault_expected(ev, value, span, "an array");
 }
 
+static char *store_text(Eval *ev, const Value *value, Arena *arena)
+{
+    if (arena != NULL) {
+        return arena_copy_text(arena, value->text, value->length);
+    }
+    char *copy = value->length < SIZE_MAX ? kept_take(ev, value->length + 1, false) : NULL;
+    if (copy != NULL) {
+        memcpy(copy, value->text, value->length);
+        copy[value->length] = '\0';
+    }
+    return copy;
+}
+
 static bool store_array(Eval *ev, const ValueArray *array, Arena *arena, Span span, Value *copy)
 {
     if (!eval_work(ev, array->count * sizeof *array->elements, span)) {
         return false;
     }
-    ValueArray *kept = arena_copy(arena, array, sizeof *array);
-    Value *elements = arena_alloc_array(arena, array->count, sizeof *elements);
-    if (kept == NULL || elements == NULL) {
+    size_t size = sizeof *array + array->count * sizeof *array->elements; // of at most ARRAY_ELEMENTS_MAX
+    ValueArray *kept = arena != NULL ? arena_alloc(arena, size) : kept_take(ev, size, true);
+    if (kept == NULL) {
         return eval_no_memory(ev, span);
     }
+    *kept = *array;
+    Value *elements = (Value *)(kept + 1);
     kept->elements = elements;
+    kept->arena = arena;
+    kept->reference_count = 0;
     for (size_t i = 0; i < array->count; i++) {
         if (!value_store(ev, &array->elements[i], arena, span, &elements[i])) {
             return false;
@@ -130,7 +148,7 @@ bool value_store(Eval *ev, const Value *value, Arena *arena, Span span, Value *c
             copy->v[i] = (float)value->v[i];
         }
     } else if (value->kind == VALUE_STRING) {
-        copy->text = arena_copy_text(arena, value->text, value->length);
+        copy->text = store_text(ev, value, arena);
         if (copy->text == NULL) {
             return eval_no_memory(ev, span);
         }
@@ -177,10 +195,21 @@ bool array_takes(Eval *ev, const ValueArray *array, const Value *element, const 
 bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span)
 {
     Value kept;
-    if (!value_store(ev, value, &ev->program, span, &kept) || !array_takes(ev, array, element, &kept, span)) {
+    bool is_owner = array->arena == NULL;
+    if (!value_store(ev, value, array->arena, span, &kept)) {
         return false;
     }
-    *element = kept;
+    if (!array_takes(ev, array, element, &kept, span)) {
+        if (is_owner && kept_is_owned(&kept)) {
+            kept_give_back(ev, &kept);
+        }
+        return false;
+    }
+    if (is_owner) {
+        kept_replace(ev, element, &kept);
+    } else {
+        *element = kept;
+    }
     if (array->first.kind == VALUE_NONE || (kept.kind == VALUE_BLOCK && kept.block != KIND_UNSUPPORTED)) {
         array->first = kept;
     }

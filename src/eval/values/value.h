@@ -65,6 +65,8 @@ struct ValueArray {
     uint32_t sizes[ARRAY_DIMENSIONS_MAX];
     size_t count; // the product of the sizes
     Value *elements;
+    Arena *arena; // where the elements keep texts and arrays; NULL: they own them (kept.h)
+    unsigned reference_count; // parameters of macros that stand for elements
     Value first; // what was set first, for its kind; VALUE_NONE: none ever was
 };
 
@@ -100,7 +102,8 @@ static inline bool value_is_tuple(const Value *value)
     return value->kind == VALUE_VECTOR || value->kind == VALUE_COLOUR;
 }
 
-// A copy that lives as long as the arena: colours in single precision, texts and arrays copied.
+// A copy that lives as long as the arena: colours in single precision, texts and arrays copied. Without an arena it
+// owns its texts and arrays (kept.h).
 bool value_store(Eval *ev, const Value *value, Arena *arena, Span span, Value *copy) RT_MUST_CHECK;
 
 #endif

@@ -1,0 +1,97 @@
+// The tree of a composite's parts, where they are many.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/csg_parts.h"
+
+#include <stdlib.h>
+
+#include "trace/bvh_walk.h"
+
+static bool is_leaf(const ShapeTable *table, const Bounds *surfaces, uint32_t index)
+{
+    const Solid *solid = &table->solids[index];
+    return !solid->decides && !solid_is_mesh(solid) && bounds_are_finite(surfaces[index]);
+}
+
+// Places the leaves' boxes and builds the tree of them; `refs` has room for all.
+static bool build(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, CsgParts *parts, BvhRef *refs,
+                  int threads)
+{
+    Bounds all = BOUNDS_NONE;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < csg->solid_count; i++) {
+        if (is_leaf(table, surfaces, csg->first_solid + i)) {
+            all = bounds_join(all, surfaces[csg->first_solid + i]);
+        } else {
+            parts->loose[parts->loose_count++] = i;
+        }
+    }
+    bvh_place(&parts->tree, all.low, all.high);
+    for (uint32_t i = 0; i < csg->solid_count; i++) {
+        const Bounds *own = &surfaces[csg->first_solid + i];
+        if (is_leaf(table, surfaces, csg->first_solid + i)) {
+            refs[count++] = bvh_ref(&parts->tree, own->low, own->high, i);
+            parts->are_leaves_unseen = parts->are_leaves_unseen && i >= csg->seen_count;
+        }
+    }
+    parts->leaf_count = count;
+    bool done = bvh_build(&parts->tree, refs, count, BVH_LEAF_ONE, threads);
+    for (uint32_t i = 0; done && i < count; i++) {
+        parts->leaves[i] = bvh_ref_index(&refs[i]);
+    }
+    return done;
+}
+
+bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads)
+{
+    uint32_t count = 0;
+    for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count; i++) {
+        count += is_leaf(table, surfaces, i);
+    }
+    if (count < CSG_PARTS_LEAST) {
+        return true;
+    }
+    Pages pages = {0};
+    CsgParts *parts = csg->parts = calloc(1, sizeof *parts);
+    uint32_t *numbers = malloc(csg->solid_count * sizeof *numbers);
+    if (!parts || !numbers || !pages_take(&pages, count * sizeof(BvhRef))) {
+        free(numbers);
+        return false;
+    }
+    parts->leaves = numbers;
+    parts->loose = numbers + count;
+    parts->are_leaves_unseen = true;
+    bool done = build(table, csg, surfaces, parts, pages.memory, threads);
+    pages_give(&pages);
+    return done;
+}
+
+void csg_parts_fini(CsgTree *csg)
+{
+    if (csg->parts) {
+        bvh_fini(&csg->parts->tree);
+        free(csg->parts->leaves);
+        free(csg->parts);
+    }
+}
+
+size_t csg_parts_bytes(const CsgTree *csg)
+{
+    const CsgParts *parts = csg->parts;
+    return !parts ? 0 : sizeof *parts + csg->solid_count * sizeof *parts->leaves +
+                            parts->tree.node_count * sizeof *parts->tree.nodes;
+}
+
+void csg_parts_along(const CsgParts *parts, const Ray *ray, double until, uint64_t *met)
+{
+    BvhWalk walk;
+    BvhChild leaf;
+    if (!bvh_walk_start(&walk, &parts->tree, ray->origin, ray->direction)) {
+        return;
+    }
+    float limit = bvh_walk_limit(&walk, until);
+    while (bvh_walk_next(&walk, limit, &leaf)) {
+        uint32_t part = parts->leaves[bvh_leaf_first(leaf)];
+        met[part / 64] |= UINT64_C(1) << part % 64;
+    }
+}

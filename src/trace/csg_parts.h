@@ -1,0 +1,32 @@
+// The tree of a composite's parts, where they are many: a ray asks those alone whose boxes it meets.
+//
+// A part whose box is missed has no crossing, so the composite's counts have it as idle from the start, which is what
+// asking it would find. Parts that decide, meshes, which are followed along the line, and parts without bounds are loose:
+// each ray asks them, before all others.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_CSG_PARTS_H
+#define TRACE_CSG_PARTS_H
+
+#include "trace/bounds.h"
+#include "trace/shapes.h"
+
+enum { CSG_PARTS_LEAST = 16 }; // in the tree; fewer are asked one after the other
+
+struct CsgParts {
+    Bvh tree;
+    uint32_t *loose, *leaves; // numbers within the composite: in order, and in the tree's; in one block, owned
+    uint32_t loose_count, leaf_count;
+    bool are_leaves_unseen; // they only clip
+};
+
+// Sorts the parts of a composite, whose surfaces' boxes are given by solid. Leaves it without a tree where that is not
+// worth it. False when out of memory.
+bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads) RT_MUST_CHECK;
+void csg_parts_fini(CsgTree *csg);
+size_t csg_parts_bytes(const CsgTree *csg);
+
+// Sets a bit, of solid_count in all, for each of the leaves whose box the ray may enter up to a place.
+void csg_parts_along(const CsgParts *parts, const Ray *ray, double until, uint64_t *met);
+
+#endif
