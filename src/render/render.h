@@ -17,6 +17,7 @@
 #include "base/attributes.h"
 #include "render/filter.h"
 #include "render/sampler.h"
+#include "render/tile_share.h"
 #include "scene/scene.h"
 #include "trace/trace.h"
 
@@ -191,9 +192,15 @@ typedef struct RenderOptions {
     const atomic_bool *cancel;       // when it turns true, work stops soon; may be NULL
     const SamplingOptions *sampling; // NULL: one ray through the middle of each pixel, area lights as grids
     const AntialiasOptions *antialias; // without `sampling`: more rays where needed; NULL: none
+    const TileShare *share;            // NULL: all tiles are traced here
 } RenderOptions;
 
-typedef enum RenderResult { RENDER_OK, RENDER_CANCELLED, RENDER_NO_MEMORY } RenderResult;
+typedef enum RenderResult {
+    RENDER_OK,
+    RENDER_CANCELLED,
+    RENDER_NO_MEMORY,
+    RENDER_NOT_SHARED, // TILE_SHARE_BROKEN
+} RenderResult;
 
 // `error` is set when options->sampling is, and a cancelled run then leaves a picture, if each pixel has a sample
 // (error->samples > 0).

@@ -1,0 +1,99 @@
+// Messages between ranks, by MPI 3.1: see mpi_module.h.
+//
+// SPDX-License-Identifier: MIT
+#include "share/mpi_module.h"
+
+#include "share/optional.h"
+
+#ifdef WITH_MPI
+#include <limits.h>
+#include <mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MESSAGE_TAG = 1, PIECE = 1 << 30 }; // counts of MPI 3 are of int
+
+static bool begin(int *rank, int *ranks)
+{
+    int is_there = 0, provided = MPI_THREAD_SINGLE;
+    if (MPI_Initialized(&is_there) != MPI_SUCCESS ||
+        (!is_there && MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS)) {
+        return false;
+    }
+    return MPI_Comm_rank(MPI_COMM_WORLD, rank) == MPI_SUCCESS && MPI_Comm_size(MPI_COMM_WORLD, ranks) == MPI_SUCCESS &&
+           (is_there || provided >= MPI_THREAD_SERIALIZED);
+}
+
+static void end(void)
+{
+    MPI_Finalize();
+}
+
+static void stop(int code)
+{
+    MPI_Abort(MPI_COMM_WORLD, code);
+}
+
+// Of a fault MPI tells, and ends all ranks: errors are fatal unless something else was said.
+static void send_message(int to, const void *bytes, size_t length)
+{
+    MPI_Send((void *)bytes, (int)length, MPI_BYTE, to, MESSAGE_TAG, MPI_COMM_WORLD);
+}
+
+static bool receive_message(int *from, unsigned char **bytes, size_t *length, bool *failed)
+{
+    int is_there = 0, count = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, MESSAGE_TAG, MPI_COMM_WORLD, &is_there, &status);
+    if (!is_there) {
+        return false;
+    }
+    MPI_Get_count(&status, MPI_BYTE, &count);
+    *bytes = malloc((size_t)count + 1);
+    if (!*bytes) {
+        return *failed = true, false;
+    }
+    *from = status.MPI_SOURCE;
+    *length = (size_t)count;
+    MPI_Recv(*bytes, count, MPI_BYTE, *from, MESSAGE_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return true;
+}
+
+static void broadcast(void *bytes, size_t length)
+{
+    for (size_t at = 0; at < length; at += PIECE) {
+        int piece = (int)(length - at < PIECE ? length - at : PIECE);
+        MPI_Bcast((unsigned char *)bytes + at, piece, MPI_BYTE, 0, MPI_COMM_WORLD);
+    }
+}
+
+static void gather(const long long *own, long long *all)
+{
+    MPI_Allgather((void *)own, 1, MPI_LONG_LONG, all, 1, MPI_LONG_LONG, MPI_COMM_WORLD);
+}
+
+static void describe(char *machine, size_t machine_size, char *library, size_t library_size)
+{
+    char name[MPI_MAX_PROCESSOR_NAME] = "", version[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+    int length;
+    MPI_Get_processor_name(name, &length);
+    MPI_Get_library_version(version, &length);
+    version[strcspn(version, ",\n")] = '\0';
+    snprintf(machine, machine_size, "%s", name);
+    snprintf(library, library_size, "%s", version);
+}
+
+const MpiModule rtlang_mpi_module = {.version = MPI_MODULE_VERSION,
+                                     .is_whole = true,
+                                     .begin = begin,
+                                     .end = end,
+                                     .stop = stop,
+                                     .send = send_message,
+                                     .receive = receive_message,
+                                     .broadcast = broadcast,
+                                     .gather = gather,
+                                     .describe = describe};
+#else
+const MpiModule rtlang_mpi_module = {.version = MPI_MODULE_VERSION};
+#endif
