@@ -452,6 +452,7 @@ rt_status session_sharing_begin(rt_session *session)
         ranks_use(&sharing->ranks, store);
     } else {
         alone_init(&sharing->alone, store, sharing->part, sharing->parts);
+        store->keeps_all = sharing->is_part;
     }
     return session_status(session, fine);
 }

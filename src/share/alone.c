@@ -76,5 +76,4 @@ void alone_init(Alone *alone, Store *store, int part, int parts)
                                .give = give,
                                .end = end,
                                .seconds = seconds};
-    store->keeps_all = parts > 1;
 }

@@ -117,7 +117,7 @@ def check_parts(test, place):
 
 def said(test, place, words, code, expected):
     found, text = place.run(*words)
-    test.ok(found == code and expected in text, "%s: %s" % (" ".join(words), expected), "exit %d\n%s" % (found, text))
+    test.ok(found == code and expected in text, "%s: %s" % (" ".join(words), expected.strip()), "exit %d\n%s" % (found, text))
 
 
 def check_refusals(test, place):
