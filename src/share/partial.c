@@ -179,9 +179,10 @@ PartialResult partial_take(Partial *partial, unsigned char *bytes, size_t size)
     PartialRecord record;
     PartialResult result = take_head(&input, &partial->head);
     while (result == PARTIAL_OK && input.left > 0 && !partial->is_complete && !partial->is_broken) {
-        partial->is_broken = !take_record(&input, &record);
-        partial->is_complete = !partial->is_broken && record.tile == PARTIAL_END && record.pass == partial->records.count;
-        if (!partial->is_broken && record.tile != PARTIAL_END && !ARRAY_PUSH(&partial->records, record)) {
+        bool is_whole = take_record(&input, &record), is_end = is_whole && record.tile == PARTIAL_END;
+        partial->is_complete = is_end && record.pass == (uint32_t)partial->records.count;
+        partial->is_broken = !is_whole || (is_end && !partial->is_complete);
+        if (is_whole && !is_end && !ARRAY_PUSH(&partial->records, record)) {
             result = PARTIAL_NO_MEMORY;
         }
     }

@@ -149,6 +149,10 @@ def check_refusals(test, place):
     said(test, place, ["--part=1/2", "-o", "-", "rich.scn"], 2, "`--part` wants scene and picture in files")
     said(test, place, ["--checkpoint=1", "--method=forward", "rich.scn"], 2,
          "photons of `--method` cannot be shared or kept")
+    shutil.copy(PROGRAM, os.path.join(place.path, "alone"))
+    done = subprocess.run(["./alone", "--mpi", "old.scn"], cwd=place.path, stderr=subprocess.PIPE, check=False)
+    test.ok(done.returncode == 3 and b"error[E0521]: `--mpi` needs MPI: no rtlang_mpi.so in " in done.stderr,
+            "no module for MPI", done.stderr.decode())
     said(test, place, ["--checkpoint=1", "-o", "none/x.png", "rich.scn"], 3, "error[E0505]: cannot write")
 
 
@@ -160,6 +164,18 @@ def killed_run(place, words, seconds, how):
         process.wait(timeout=seconds)
     except subprocess.TimeoutExpired:
         process.send_signal(how)
+    text = process.communicate()[1].decode(errors="replace")
+    return process.returncode, text
+
+
+def stopped_run(place, words, name, size):
+    """Starts a run and stops it by SIGTERM, once the file `name` is so large."""
+    path = os.path.join(place.path, name)
+    process = subprocess.Popen([PROGRAM, *words], cwd=place.path, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    while process.poll() is None and not (os.path.exists(path) and os.path.getsize(path) > size):
+        time.sleep(0.002)
+    process.terminate()
     text = process.communicate()[1].decode(errors="replace")
     return process.returncode, text
 
@@ -195,17 +211,17 @@ def check_kills(test, place, count):
 
 
 def check_checkpoints(test, place):
-    words = [*SIZE, "--samples=512", "--checkpoint=0", "-o", "kept.png", "rich.scn"]
-    code, text = killed_run(place, words, 3.0, signal.SIGTERM)
+    words = [*SIZE, "--samples=100000", "--checkpoint=0", "-o", "kept.png", "rich.scn"]
+    code, text = stopped_run(place, words, "kept.png.checkpoint", 100000)
     test.ok(code == 143 and "what was done is kept, and `--resume` continues" in text and
             place.bytes("kept.png") is None and place.bytes("kept.png.checkpoint"),
             "SIGTERM leaves a checkpoint and no picture", "exit %d\n%s" % (code, text))
     said(test, place, [*SIZE, "--samples=256", "--resume", "-o", "kept.png", "rich.scn"], 2,
          "error[E0712]: `kept.png.checkpoint` holds results of another picture: the options are others\n")
     shutil.copy(os.path.join(place.path, "kept.png.checkpoint"), os.path.join(place.path, "kept2.png.checkpoint"))
-    said(test, place, [*SIZE, "--samples=512", "--resume", "-o", "kept2.png", "old.scn"], 2,
+    said(test, place, [*SIZE, "--samples=100000", "--resume", "-o", "kept2.png", "old.scn"], 2,
          "error[E0712]: `kept2.png.checkpoint` holds results of another picture: the scene's text is another one\n")
-    expected, _ = reference(place, "rich", [], ".png")
+    check_torn(test, place)
     place.run(*SIZE, "--part=1/1", "-o", "torn.png", "rich.scn")
     said(test, place, [*SIZE, "--resume", "-o", "torn.png", "rich.scn"], 0, "")
     with open(os.path.join(place.path, "torn.png.checkpoint"), "wb") as file:
@@ -220,7 +236,20 @@ def check_checkpoints(test, place):
     code, text = place.run(*frames, "--checkpoint=0", "--resume", "-o", "g.png", "rich.scn")
     test.ok(code == 0 and all(place.bytes("f%d.png" % i) == place.bytes("g%d.png" % i) for i in range(1, 5)),
             "frames, killed and continued", text)
-    del expected
+
+
+def check_torn(test, place):
+    """A machine that stopped while a checkpoint was written to."""
+    options = ["--samples=256"]
+    expected, _ = reference(place, "rich", options, ".png")
+    words = [*SIZE, *options, "--checkpoint=0", "-o", "torn.png", "rich.scn"]
+    stopped_run(place, words, "torn.png.checkpoint", 200000)
+    path = os.path.join(place.path, "torn.png.checkpoint")
+    with open(path, "r+b") as file:
+        file.truncate(os.path.getsize(path) - 5)
+    code, text = place.run(*words, "--resume")
+    test.ok(code == 0 and "warning[W0503]: `torn.png.checkpoint` is not whole: what follows its first " in text and
+            place.bytes("torn.png") == expected, "a checkpoint without its end", "exit %d\n%s" % (code, text))
 
 
 def main():
