@@ -3,9 +3,11 @@
 // SPDX-License-Identifier: MIT
 #include "cli/share.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "cli/provenance.h"
 
 char *share_command(int argc, char **argv)
@@ -139,9 +141,27 @@ OptionsResult share_recall(rt_session *session, Options *options, Povray *povray
 
 // ---- --mpi
 
+// What those who start ranks call them in the environment; 0: nobody did.
+static int rank_of_environment(void)
+{
+    static const char *const names[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"};
+    int rank = 0;
+    for (size_t i = 0; i < RT_COUNT_OF(names); i++) {
+        const char *text = getenv(names[i]);
+        if (text && option_parse_integer(text, 0, INT_MAX, &rank)) {
+            return rank;
+        }
+    }
+    return 0;
+}
+
+// Where there are no ranks to be had, that is the same for all, and one of them says so.
 rt_status share_begin_ranks(rt_session *session, Options *options, Voice *voice)
 {
+    voice->rank = rank_of_environment();
+    voice_hold(voice);
     rt_status status = rt_join_ranks(session, &options->rank, &options->ranks);
+    voice_release(voice, false);
     if (status) {
         return status;
     }

@@ -17,7 +17,8 @@ typedef enum Word { WORD_ASK, WORD_TILES, WORD_RESULT, WORD_STOP, WORD_END, WORD
 enum {
     TILES_AT_ONCE = 32,
     ROUNDS = 8,              // in about so many askings of each rank a pass is dealt
-    IDLE_NANOSECONDS = 50000, // between looks for messages
+    IDLE_NANOSECONDS = 50000, // between looks for messages; twice as long after each in vain, …
+    IDLE_DOUBLINGS = 4,       // … so often
     NUMBER = sizeof(int32_t),
 };
 
@@ -52,7 +53,6 @@ static void send_numbers(Ranks *ranks, int to, Word word, const int32_t *numbers
     message[0] = (unsigned char)word;
     memcpy(message + 1, numbers, (size_t)count * NUMBER);
     ranks->module->send(to, message, 1 + (size_t)count * NUMBER);
-    ranks->sent += 1 + (size_t)count * NUMBER;
 }
 
 static int32_t number_at(const unsigned char *bytes, size_t index)
@@ -110,7 +110,6 @@ static void answer(Ranks *ranks, int to)
 static bool hear(Ranks *ranks, int from, const unsigned char *bytes, size_t length)
 {
     int tile = length >= 1 + NUMBER ? number_at(bytes + 1, 0) : -1;
-    ranks->received += length;
     switch ((Word)bytes[0]) {
     case WORD_ASK:
         answer(ranks, from);
@@ -134,9 +133,11 @@ static bool hear(Ranks *ranks, int from, const unsigned char *bytes, size_t leng
     return bytes[0] == WORD_BYE;
 }
 
-static void idle(void)
+// After so many looks in vain, which it counts.
+static void idle(int *looks)
 {
-    nanosleep(&(struct timespec){.tv_nsec = IDLE_NANOSECONDS}, NULL);
+    nanosleep(&(struct timespec){.tv_nsec = (long)IDLE_NANOSECONDS << *looks}, NULL);
+    *looks += *looks < IDLE_DOUBLINGS;
 }
 
 // Hears all that has come; returns how many goodbyes.
@@ -159,7 +160,7 @@ static int hear_all(Ranks *ranks, bool *heard)
 
 static void end_pass(Ranks *ranks)
 {
-    int goodbyes = 0;
+    int goodbyes = 0, looks = 0;
     int32_t is_stopped = ranks->is_stopped;
     for (int to = 1; to < ranks->ranks; to++) {
         send_numbers(ranks, to, WORD_END, &is_stopped, 1);
@@ -167,15 +168,16 @@ static void end_pass(Ranks *ranks)
     while (goodbyes < ranks->ranks - 1) {
         bool heard = false;
         goodbyes += hear_all(ranks, &heard);
+        looks = heard ? 0 : looks;
         if (!heard) {
-            idle();
+            idle(&looks);
         }
     }
 }
 
 static void serve_first(Ranks *ranks, void (*done)(void *run, int tiles), bool (*stops)(void *run), void *run)
 {
-    int told = 0;
+    int told = 0, looks = 0;
     bool is_whole = false, is_stopped = false;
     while (!is_whole && !is_stopped) {
         bool heard = false, is_to_stop = stops(run);
@@ -186,10 +188,12 @@ static void serve_first(Ranks *ranks, void (*done)(void *run, int tiles), bool (
         ranks->is_stopped = is_stopped;
         pthread_mutex_unlock(&ranks->lock);
         is_whole = now == ranks->tiles;
+        looks = heard ? 0 : looks;
         if (now > told) {
             done(run, told = now);
-        } else if (!heard) {
-            idle();
+        }
+        if (!heard && !is_whole) {
+            idle(&looks);
         }
     }
     end_pass(ranks);
@@ -198,16 +202,16 @@ static void serve_first(Ranks *ranks, void (*done)(void *run, int tiles), bool (
 // ---- the others
 
 // Returns whether something could not be kept to be sent.
-static bool send_results(Ranks *ranks)
+static bool send_results(Ranks *ranks, int *looks)
 {
     pthread_mutex_lock(&ranks->lock);
     bool failed = ranks->has_failed;
     RankTiles ready = ranks->results;
     ranks->results = (RankTiles){0};
     pthread_mutex_unlock(&ranks->lock);
+    *looks = ready.count > 0 ? 0 : *looks;
     for (size_t i = 0; i < ready.count; i++) { // each begins as a message does
         ranks->module->send(0, text_get(&ready.items[i].bytes), ready.items[i].bytes.length);
-        ranks->sent += ready.items[i].bytes.length;
     }
     results_clear(&ready);
     ARRAY_FREE(&ready);
@@ -242,22 +246,24 @@ static void take_tiles(Ranks *ranks, const unsigned char *bytes, size_t length)
 static void serve_other(Ranks *ranks, bool (*stops)(void *run), void *run)
 {
     bool has_said = false, failed = false;
+    int looks = 0;
     while (!ranks->is_over) {
         int from;
         unsigned char *bytes;
         size_t length;
-        failed = send_results(ranks) || failed;
+        failed = send_results(ranks, &looks) || failed;
         if (!has_said && (failed || stops(run))) {
             send_numbers(ranks, 0, WORD_STOP, NULL, 0);
             has_said = true;
         } else if (wants_more(ranks)) {
             send_numbers(ranks, 0, WORD_ASK, NULL, 0);
+            looks = 0;
         }
         if (!ranks->module->receive(&from, &bytes, &length, &failed)) {
-            idle();
+            idle(&looks);
             continue;
         }
-        ranks->received += length;
+        looks = 0;
         if (bytes[0] == WORD_TILES) {
             take_tiles(ranks, bytes, length);
         } else if (bytes[0] == WORD_END) {
@@ -293,7 +299,7 @@ static int begin(void *client, int tiles, bool is_last)
 static int next(void *client)
 {
     Ranks *ranks = client;
-    for (;;) {
+    for (int looks = 0;;) {
         int tile = -1;
         pthread_mutex_lock(&ranks->lock);
         bool is_over = ranks->is_over || ranks->is_stopped || ranks->has_failed;
@@ -306,7 +312,7 @@ static int next(void *client)
         if (tile >= 0 || is_over || ranks->rank == 0) {
             return tile;
         }
-        idle();
+        idle(&looks);
     }
 }
 
@@ -398,7 +404,6 @@ static bool exchange(Ranks *ranks, TextBuffer *all)
         }
     }
     ranks->module->broadcast(all->text, all->length);
-    *(ranks->rank > 0 ? &ranks->received : &ranks->sent) += all->length;
     return true;
 }
 

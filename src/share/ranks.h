@@ -37,7 +37,6 @@ typedef struct Ranks {
     int queue_begin, queue_end;
     bool is_asking, is_over, is_stopped, has_failed;
     RankTiles results; // rank 0: of all tiles; others: traced here and not yet sent
-    uint64_t sent, received; // bytes, of all passes
 } Ranks;
 
 bool ranks_init(Ranks *ranks, const MpiModule *module, int rank, int count) RT_MUST_CHECK;

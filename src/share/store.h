@@ -8,6 +8,7 @@
 #define SHARE_STORE_H
 
 #include <pthread.h>
+#include <stdatomic.h>
 
 #include "image/image.h"
 #include "share/partial.h"
@@ -40,8 +41,8 @@ typedef struct Store {
     const char *path;            // of the checkpoint; the caller's; NULL: none
     int fd;
     double interval, written_at; // seconds
-    StoreFault fault;
-    int error; // errno
+    _Atomic(StoreFault) fault; // the first
+    int error;                 // errno
 } Store;
 
 bool store_init(Store *store) RT_MUST_CHECK;
