@@ -129,6 +129,7 @@ OptionsResult share_recall(rt_session *session, Options *options, Povray *povray
     given.scenes = NULL;
     options->parts = options->part = 0;
     options->checkpoint = -1.0;
+    options->resumes = options->continues = false;
     options->output = given.output ? given.output : options->output;
     options->error_map = given.error_map;
     options->threads = given.threads;

@@ -18,7 +18,7 @@ from check_share import APART, PROGRAM, SIZE, WHOLE, Place, reference  # noqa: E
 
 LONG = "CHECK_LONG" in os.environ
 COUNTS = (1, 2, 3, 5, 8, 16) if LONG else (3,)
-ENVIRONMENT = {"OMPI_MCA_btl": "self,vader", "OMPI_MCA_btl_base_warn_component_unused": "0",
+ENVIRONMENT = {"OMPI_MCA_btl": "self,vader,tcp", "OMPI_MCA_btl_base_warn_component_unused": "0",
                "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_plm": "isolated"}
 
 

@@ -106,18 +106,31 @@ def check_parts(test, place):
         for parts in (2, 5):
             name = "joined" + ending
             for i in random.sample(range(1, parts + 1), parts):
-                code, text = place.run(*SIZE, *options, "--part=%d/%d" % (i, parts), "-o", name, scene + ".scn")
+                kept = ["--checkpoint=0", "--resume"] * (parts == 2)
+                code, text = place.run(*SIZE, *options, "--part=%d/%d" % (i, parts), *kept, "-o", name, scene + ".scn")
                 if code:
                     test.ok(False, "a part", text)
             files = ["%s.part-%d-of-%d" % (name, i, parts) for i in range(parts, 0, -1)]
             code, text = place.run("-q", "--join", *files)
-            test.ok(code == 0 and place.bytes(name) == expected,
+            test.ok(code == 0 and place.bytes(name) == expected and not place.bytes(files[0] + ".checkpoint"),
                     "%s, %s: %d parts, joined" % (scene, " ".join(options) or "one ray", parts), text)
 
 
 def said(test, place, words, code, expected):
     found, text = place.run(*words)
     test.ok(found == code and expected in text, "%s: %s" % (" ".join(words), expected.strip()), "exit %d\n%s" % (found, text))
+
+
+def check_povray_words(test, place):
+    """POV-Ray's options, and a part of them that was killed."""
+    words = ["+W100", "+H75", "+A0.1", "+Iold.scn"]
+    place.run(*words, "+Opov.png")
+    for i in 1, 2, 3:
+        if i == 2:
+            killed_run(place, [*words, "+Oparts.png", "--part=2/3", "--checkpoint=0"], 0.05, signal.SIGKILL)
+        place.run(*words, "+Oparts.png", "--part=%d/3" % i, "--checkpoint=0", "--resume")
+    code, text = place.run("--join", *["parts.png.part-%d-of-3" % i for i in (1, 2, 3)])
+    test.ok(code == 0 and place.bytes("parts.png") == place.bytes("pov.png"), "POV-Ray's options in parts", text)
 
 
 def check_refusals(test, place):
@@ -259,6 +272,7 @@ def main():
         check_kills(test, place, int(sys.argv[2]))
     else:
         check_parts(test, place)
+        check_povray_words(test, place)
         check_refusals(test, place)
         check_checkpoints(test, place)
         check_kills(test, place, 12)
