@@ -11,8 +11,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
-enum { MESSAGE_TAG = 1, PIECE = 1 << 30 }; // counts of MPI 3 are of int
+enum {
+    MESSAGE_TAG = 1,
+    PIECE = 1 << 30, // counts of MPI 3 are of int
+    FEW_BYTES = 64,
+    LOOKS_AT_ONCE = 100,
+    PAUSE_FIRST = 50000, // nanoseconds
+    PAUSE_MOST = 1000000,
+};
 
 static bool begin(int *rank, int *ranks)
 {
@@ -60,8 +68,30 @@ static bool receive_message(int *from, unsigned char **bytes, size_t *length, bo
     return true;
 }
 
+// For ranks that may come much later: a blocking call of most MPIs takes a processor meanwhile.
+static void wait_for(MPI_Request *request)
+{
+    struct timespec pause = {.tv_nsec = PAUSE_FIRST};
+    int is_done = 0;
+    for (int i = 0; i < LOOKS_AT_ONCE && !is_done; i++) {
+        MPI_Test(request, &is_done, MPI_STATUS_IGNORE);
+    }
+    while (!is_done) {
+        nanosleep(&pause, NULL);
+        pause.tv_nsec = 2 * pause.tv_nsec < PAUSE_MOST ? 2 * pause.tv_nsec : PAUSE_MOST;
+        MPI_Test(request, &is_done, MPI_STATUS_IGNORE);
+    }
+}
+
+// Of many bytes, it has been said before how many: then all are there.
 static void broadcast(void *bytes, size_t length)
 {
+    MPI_Request request;
+    if (length <= FEW_BYTES) {
+        MPI_Ibcast(bytes, (int)length, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+        wait_for(&request);
+        return;
+    }
     for (size_t at = 0; at < length; at += PIECE) {
         int piece = (int)(length - at < PIECE ? length - at : PIECE);
         MPI_Bcast((unsigned char *)bytes + at, piece, MPI_BYTE, 0, MPI_COMM_WORLD);
@@ -70,7 +100,9 @@ static void broadcast(void *bytes, size_t length)
 
 static void gather(const long long *own, long long *all)
 {
-    MPI_Allgather((void *)own, 1, MPI_LONG_LONG, all, 1, MPI_LONG_LONG, MPI_COMM_WORLD);
+    MPI_Request request;
+    MPI_Iallgather((void *)own, 1, MPI_LONG_LONG, all, 1, MPI_LONG_LONG, MPI_COMM_WORLD, &request);
+    wait_for(&request);
 }
 
 static void describe(char *machine, size_t machine_size, char *library, size_t library_size)
