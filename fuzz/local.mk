@@ -6,8 +6,9 @@
 LIB_FUZZING_ENGINE =
 fuzz_ini_sources = src/cli/povray_ini.c src/cli/povray_read.c src/cli/povray_table.c src/cli/povray_value.c \
   src/cli/terminal.c
-fuzz_replays = fuzz/replay_grammar fuzz/replay_scene fuzz/replay_dump fuzz/replay_picture fuzz/replay_ini
-fuzz_targets = fuzz/fuzz_grammar fuzz/fuzz_scene fuzz/fuzz_dump fuzz/fuzz_picture fuzz/fuzz_ini
+fuzz_replays = fuzz/replay_grammar fuzz/replay_scene fuzz/replay_dump fuzz/replay_picture fuzz/replay_ini \
+  fuzz/replay_partial
+fuzz_targets = fuzz/fuzz_grammar fuzz/fuzz_scene fuzz/fuzz_dump fuzz/fuzz_picture fuzz/fuzz_ini fuzz/fuzz_partial
 check_PROGRAMS += $(fuzz_replays)
 EXTRA_PROGRAMS += $(fuzz_targets)
 fuzz_replay_grammar_SOURCES = %D%/fuzz_grammar.c %D%/fuzz.h %D%/replay.c
@@ -20,6 +21,8 @@ fuzz_replay_picture_SOURCES = %D%/fuzz_picture.c %D%/fuzz.h %D%/replay.c
 fuzz_replay_picture_LDADD = libimage.la libmath.la libbase.la
 fuzz_replay_ini_SOURCES = %D%/fuzz_ini.c %D%/fuzz.h %D%/replay.c $(fuzz_ini_sources)
 fuzz_replay_ini_LDADD = libapi.la
+fuzz_replay_partial_SOURCES = %D%/fuzz_partial.c %D%/fuzz.h %D%/replay.c
+fuzz_replay_partial_LDADD = libshare.la libimage.la libbase.la
 fuzz_fuzz_grammar_SOURCES = %D%/fuzz_grammar.c %D%/fuzz.h
 fuzz_fuzz_grammar_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
 fuzz_fuzz_scene_SOURCES = %D%/fuzz_scene.c %D%/fuzz.h
@@ -32,6 +35,8 @@ fuzz_fuzz_picture_LDADD = libimage.la libmath.la libbase.la $(LIB_FUZZING_ENGINE
 fuzz_fuzz_picture_LDFLAGS = -export-dynamic
 fuzz_fuzz_ini_SOURCES = %D%/fuzz_ini.c %D%/fuzz.h $(fuzz_ini_sources)
 fuzz_fuzz_ini_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
+fuzz_fuzz_partial_SOURCES = %D%/fuzz_partial.c %D%/fuzz.h
+fuzz_fuzz_partial_LDADD = libshare.la libimage.la libbase.la $(LIB_FUZZING_ENGINE)
 
 TESTS += %D%/replay.py
 EXTRA_DIST += %D%/replay.py %D%/make_seeds.py %D%/make_dictionary.py %D%/run %D%/corpus %D%/oss-fuzz

@@ -4,6 +4,7 @@
 Usage: make_seeds.py TOP FOLDER. SPDX-License-Identifier: MIT
 """
 import glob
+import hashlib
 import os
 import re
 import struct
@@ -11,7 +12,8 @@ import sys
 import zlib
 
 # Each target, and the kind of its files.
-TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "picture": "picture", "ini": "ini"}
+TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "picture": "picture", "ini": "ini",
+           "partial": "partial"}
 
 
 def lang_cases(top):
@@ -68,12 +70,29 @@ def option_files(top):
             yield "key-%03d.ini" % number, b"%s=On\n%s=1\n%s=0.5\n" % (key, key, key)
 
 
+def sealed(data):
+    """With the check that share/partial.c puts behind it."""
+    return hashlib.blake2b(data, digest_size=32).digest()[:8]
+
+
+def partials():
+    fields = [b"1.0", b"scene", b"", b"pictures", b"--width=320", b"scene.scn", b"1/2"]
+    head = b"rtlang partial result 1\n" + b"".join(struct.pack("<I", len(field)) + field for field in fields)
+    records = b""
+    for numbers, body in ((0, 0, 60), bytes(60)), ((0, 1, 5), b"bytes"), ((2, (1 << 30) + 1, 0), b""):
+        begin = struct.pack("<III", *numbers)
+        records += begin + sealed(begin + body) + body
+    yield "part", head + sealed(head) + records
+    yield "cut", (head + sealed(head) + records)[:-7]
+
+
 def write_seeds(top, folder):
     texts = list(lang_cases(top))
     for path in sorted(glob.glob(os.path.join(top, "examples", "*.scn"))):
         with open(path, "rb") as file:
             texts.append((os.path.basename(path), file.read()))
-    for kind, files in {"text": texts, "picture": pictures(top), "ini": option_files(top)}.items():
+    for kind, files in {"text": texts, "picture": pictures(top), "ini": option_files(top),
+                        "partial": partials()}.items():
         os.makedirs(os.path.join(folder, kind), exist_ok=True)
         for name, data in files:
             with open(os.path.join(folder, kind, name), "wb") as file:

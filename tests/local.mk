@@ -76,6 +76,7 @@ unit_programs = \
   tests/unit/test_light_grid \
   tests/unit/test_ball_view \
   tests/unit/test_tiles \
+  tests/unit/test_partial \
   tests/unit/test_race \
   tests/sampling/test_sampling \
   tests/sampling/test_sky_light \
@@ -200,6 +201,8 @@ tests_unit_test_render_sampler_SOURCES = %D%/unit/test_render_sampler.c
 tests_unit_test_render_sampler_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_tiles_SOURCES = %D%/unit/test_tiles.c $(trace_headers)
 tests_unit_test_tiles_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_partial_SOURCES = %D%/unit/test_partial.c $(unit_headers)
+tests_unit_test_partial_LDADD = libapi.la
 tests_unit_test_race_SOURCES = %D%/unit/test_race.c src/check/race_ratio.c src/check/race_settings.c $(unit_headers)
 tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling/scenes.h
 tests_sampling_test_sampling_LDADD = libapi.la
@@ -285,6 +288,8 @@ test_scripts = \
   %D%/system/check_lenient.py \
   %D%/system/check_lsp.py \
   %D%/system/check_rerun.py \
+  %D%/system/check_share.py \
+  %D%/system/check_ranks.py \
   %D%/system/check_install.py \
   %D%/system/check_python.py \
   %D%/system/check_strip.py \
@@ -408,8 +413,8 @@ update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 .PHONY: check-long
 check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
   tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
-  tests/unit/test_mesh$(EXEEXT) \
-  tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT)
+  tests/unit/test_mesh$(EXEEXT) tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT) \
+  tests/unit/test_partial$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
 	tests/unit/test_mesh$(EXEEXT) 1700000
@@ -429,6 +434,9 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_include_names.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_literals.py 5000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) EXPORTERS_LONG=1 $(PYTHON3) $(top_srcdir)/tests/povray/check_exporters.py
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_share.py kills 1000
+	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_ranks.py
+	TURNS=3000 tests/unit/test_partial$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
 
 # Error against samples, with all seeds and scenes, and photons.

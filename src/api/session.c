@@ -108,6 +108,7 @@ void rt_session_free(rt_session *session)
     text_fini(&session->left_out);
     text_fini(&session->note);
     session_frames_fini(session);
+    session_sharing_fini(&session->sharing);
     free(session->provenance);
     intern_free(session->names);
     source_map_free(session->sources);
@@ -492,6 +493,7 @@ static rt_status render_scene(rt_session *session, void *argument)
         .cancel = &session->cancel,
         .sampling = sampling_is_wanted(&sampling) ? &sampling : NULL,
         .antialias = session->antialias.method != 0 ? &session->antialias : NULL,
+        .share = session_sharing_table(session),
     };
     RenderResult result = trace_film(session, prepared, &options);
     bool has_picture = result == RENDER_OK || (result == RENDER_CANCELLED && session->error.samples > 0.0);
@@ -511,6 +513,8 @@ static rt_status render_scene(rt_session *session, void *argument)
     }
     if (result == RENDER_NO_MEMORY) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory rendering");
+    } else if (result == RENDER_NOT_SHARED) {
+        session_sharing_report(session);
     }
     return session_status(session, result == RENDER_OK);
 }
@@ -556,6 +560,7 @@ rt_status rt_render(rt_session *session, int threads)
         return session_status(session, false);
     }
     rt_status status = session_ways_fit(session);
+    status = status ? status : session_sharing_begin(session);
     if (status) {
         return status;
     }

@@ -21,6 +21,8 @@
 #include "render/render.h"
 #include "rtlang/rtlang.h"
 #include "scene/scene.h"
+#include "share/alone.h"
+#include "share/ranks.h"
 #include "trace/kept.h"
 
 // Spheres of one array.
@@ -55,6 +57,24 @@ typedef struct SessionFrames {
     uint32_t reading_shapes; // … these were there until that place
     bool is_past, is_in_order;
 } SessionFrames;
+
+// Work that other processes share, or that is kept for later: see sharing.c.
+typedef struct SessionSharing {
+    bool is_on; // rt_set_sharing
+    bool is_part;
+    int part, parts; // 1 of 1 unless is_part
+    char *checkpoint; // all owned; NULL: none is kept
+    double seconds;   // between writes
+    bool resumes;
+    char **joined; // parts that were traced before
+    size_t joined_count;
+    char *command; // kept in the file
+    bool has_store;
+    Store store; // of the picture that is traced, or was last
+    Alone alone;
+    bool has_ranks;
+    Ranks ranks;
+} SessionSharing;
 
 struct rt_session {
     rt_callbacks callbacks;
@@ -133,6 +153,7 @@ struct rt_session {
     const char *kernel;
     EvalNames names_declared;
     double parse_seconds, prepare_seconds, trace_seconds, write_seconds;
+    SessionSharing sharing;
     atomic_bool cancel;
     TextBuffer dump;
 };
@@ -254,6 +275,14 @@ bool session_open(rt_session *session, const char *path, Source **source);
 
 // Whether the picture, and what the loaded scene needs beside it, fit the memory that may be taken; reports when not.
 bool session_memory_suffices(rt_session *session);
+
+// Opens the files of what is shared, if anything is; reports what cannot be had.
+rt_status session_sharing_begin(rt_session *session) RT_MUST_CHECK;
+// For RenderOptions; NULL: all is traced here and nothing kept.
+const TileShare *session_sharing_table(const rt_session *session);
+// Why rendering ended with RENDER_NOT_SHARED.
+void session_sharing_report(rt_session *session);
+void session_sharing_fini(SessionSharing *sharing);
 
 // How many threads look at what is loaded.
 int session_load_threads(const rt_session *session);

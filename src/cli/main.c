@@ -11,6 +11,7 @@
 #include "cli/povray.h"
 #include "cli/provenance.h"
 #include "cli/run.h"
+#include "cli/share.h"
 #include "cli/summary.h"
 #include "cli/voice.h"
 #include "rtlang/rtlang.h"
@@ -104,11 +105,11 @@ static void close_session(rt_session *session)
 }
 
 // Whether a picture was written of a run that did not end well: of one that was interrupted, but not by its time.
-static bool is_picture_left(rt_session *session, rt_status status)
+static bool is_picture_left(rt_session *session, const Options *options, rt_status status)
 {
     int width, height;
     bool is_late = status == RT_CANCELLED && interrupted_by == SIGALRM;
-    return session && !is_late && rt_pixels(session, &width, &height) != NULL;
+    return session && !is_late && !share_keeps(options) && rt_pixels(session, &width, &height) != NULL;
 }
 
 // One scene, in a session of its own. *wrote: a picture was written, of a run that was interrupted, too.
@@ -120,7 +121,7 @@ static rt_status run_one(Options *options, Voice *voice, bool *wrote)
     }
     options->encoding.continues = *wrote;
     rt_status status = interrupted_by ? RT_CANCELLED : run(session, options, voice);
-    *wrote = is_picture_left(session, status) || *wrote;
+    *wrote = is_picture_left(session, options, status) || *wrote;
     close_session(session);
     return status;
 }
@@ -155,11 +156,11 @@ static rt_status run_frames(Options *options, Voice *voice, bool *wrote)
             counts.reads++;
         }
         counts.drawn += !status;
-        *wrote = *wrote || !status || is_picture_left(session, status);
+        *wrote = *wrote || !status || is_picture_left(session, options, status);
     }
     counts.trees += session ? summary_trees(session) : 0;
     close_session(session);
-    if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
+    if (!status && !options->quiet && options->ranks < 2 && options->format == RT_FORMAT_TEXT) {
         summary_print_frames(voice, &counts);
     }
     return status;
@@ -195,6 +196,22 @@ static rt_status run_all(Options *options, Voice *voice, bool *wrote)
     return worst == RT_CANCELLED && interrupted_by == SIGALRM ? fail_time(options, voice, *wrote) : worst;
 }
 
+// The same on each rank.
+static rt_status run_ranks(Options *options, Voice *voice, bool *wrote)
+{
+    rt_session *session = open_session(options, voice);
+    rt_status status = session ? share_begin_ranks(session, options, voice) : RT_FAULT_LIMIT;
+    close_session(session);
+    if (status) {
+        return status;
+    }
+    status = run_all(options, voice, wrote);
+    session = open_session(options, voice);
+    status = session ? share_end_ranks(session, status) : RT_FAULT_LIMIT;
+    close_session(session);
+    return status;
+}
+
 static rt_status fail_parse(rt_session *session, const Options *options)
 {
     return rt_report(session, "E0703", options->reading.complaint,
@@ -208,7 +225,7 @@ static OptionsResult read_command_line(int argc, char **argv, Options *options, 
     bool is_povray = povray_is_meant(argc, argv);
     OptionsResult result = is_povray ? OPTIONS_GO : options_parse(argc, argv, options);
     *status = RT_OK;
-    if (!is_povray && result == OPTIONS_GO && !options->rerun) {
+    if (!is_povray && result == OPTIONS_GO && !options->rerun && !options->joins) {
         return OPTIONS_GO; // nothing to report, as for most runs
     }
     rt_session *session = open_session(options, voice);
@@ -221,6 +238,9 @@ static OptionsResult read_command_line(int argc, char **argv, Options *options, 
         *status = fail_parse(session, options);
     } else if (session && result == OPTIONS_GO && options->rerun) {
         *status = provenance_recall(session, argc, argv, options);
+    }
+    if (session && result == OPTIONS_GO && !*status && options->joins) {
+        result = share_recall(session, options, povray, voice, status);
     }
     if (session && result == OPTIONS_DONE) {
         *status = run_print(session, "", RT_OK);
@@ -235,7 +255,7 @@ static int exit_code(rt_status status, const Options *options)
     if (options->is_povray) {
         return status == RT_CANCELLED ? 2 : status != RT_OK;
     }
-    return status == RT_CANCELLED ? 128 + (int)interrupted_by : (int)status;
+    return status == RT_CANCELLED ? 128 + (interrupted_by ? (int)interrupted_by : SIGTERM) : (int)status;
 }
 
 int main(int argc, char **argv)
@@ -250,11 +270,15 @@ int main(int argc, char **argv)
     setvbuf(stdout, buffer, buffer ? _IOFBF : _IONBF, OUTPUT_BUFFER);
     hear_signals();
     if (read_command_line(argc, argv, &options, &povray, &voice, &status) == OPTIONS_GO) {
-        status = run_all(&options, &voice, &wrote);
+        bool has_files = options.parts > 0 || share_keeps(&options);
+        options.command = has_files ? share_command(argc, argv) : NULL;
+        status = options.has_mpi ? run_ranks(&options, &voice, &wrote) : run_all(&options, &voice, &wrote);
     }
-    if (status == RT_CANCELLED && options.format == RT_FORMAT_TEXT) {
-        static const char some[] = "rtlang: interrupted\n", none[] = "rtlang: interrupted; nothing was written\n";
-        voice_say(&voice, VOICE_FATAL, wrote ? some : none, (wrote ? sizeof some : sizeof none) - 1);
+    if (status == RT_CANCELLED && options.format == RT_FORMAT_TEXT && options.rank == 0) {
+        const char *text = options.has_kept ? "rtlang: interrupted; what was done is kept, and `--resume` continues\n"
+                           : wrote          ? "rtlang: interrupted\n"
+                                            : "rtlang: interrupted; nothing was written\n";
+        voice_say(&voice, VOICE_FATAL, text, strlen(text));
     }
     if (!voice_close(&voice)) {
         fputs("rtlang: error[E0505]: a file of messages could not be written\n", stderr);

@@ -466,6 +466,48 @@ static bool apply_quiet(Options *options, const char *argument, OptionReading *r
     return true;
 }
 
+// I/N; whether I is one of N is said apart, since the numbers are fine.
+static bool apply_part(Options *options, const char *argument, OptionReading *reading)
+{
+    char first[16];
+    size_t length = strcspn(argument, "/");
+    reading->expected = "a part and the number of parts, as 3/8";
+    if (argument[length] != '/' || length >= sizeof first) {
+        return false;
+    }
+    memcpy(first, argument, length);
+    first[length] = '\0';
+    return option_parse_integer(argument + length + 1, 1, 999999, &options->parts) &&
+           option_parse_integer(first, 1, options->parts, &options->part);
+}
+
+static bool apply_mpi(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    return options->has_mpi = true;
+}
+
+static bool apply_join(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    return options->joins = true;
+}
+
+static bool apply_checkpoint(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "a number of seconds";
+    return option_parse_number(argument, &options->checkpoint) && options->checkpoint >= 0.0;
+}
+
+// Also where no time is given: what is continued may be stopped again.
+static bool apply_resume(Options *options, const char *argument, OptionReading *reading)
+{
+    const double usual = 60.0;
+    (void)argument, (void)reading;
+    options->checkpoint = options->checkpoint >= 0.0 ? options->checkpoint : usual;
+    return options->resumes = options->continues = true;
+}
+
 static bool apply_check(Options *options, const char *argument, OptionReading *reading)
 {
     (void)argument, (void)reading;
@@ -644,6 +686,17 @@ static const OptionRow rows[] = {
     {0, "rerun", "PICTURE", apply_rerun,
      "draw PICTURE, of PNG or EXR, again from SCENE with the options that its file keeps, "
      "and say whether the bytes are the same; the new file stays where -o names it"},
+    {0, "checkpoint", "SECONDS", apply_checkpoint,
+     "keep what is done, as often, beside the picture in PICTURE.checkpoint, and when the run is interrupted"},
+    {0, "resume", NULL, apply_resume,
+     "begin with what such a file has, if there is one; frames whose pictures are there are not drawn"},
+    {0, "part", "I/N", apply_part,
+     "trace part I of N of the picture, 1 to N, into PICTURE.part-I-of-N, for --join"},
+    {0, "join", NULL, apply_join,
+     "SCENE... are the files of all parts: make their picture, of the bytes that one run makes"},
+    {0, "mpi", NULL, apply_mpi,
+     "with mpirun: all ranks trace tiles of each picture, or draw frames of their own, and rank 0 writes; "
+     "the bytes do not depend on their number"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {0, "header", "FILE", apply_header, "include FILE before the scene's first statement"},
     {0, "no-povray-includes", NULL, apply_no_povray_includes,
@@ -717,6 +770,7 @@ static const OptionGroup groups[] = {
     {"Samples and their error", "samples"},
     {"Anti-aliasing as POV-Ray does it", "antialias"},
     {"Animations, and pictures again", "frames"},
+    {"Long runs and several machines", "checkpoint"},
     {"The scene's files and names", "include-path"},
     {"Limits, and scenes of strangers", "untrusted"},
     {"Looking into a scene", "watch"},

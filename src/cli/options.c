@@ -11,6 +11,7 @@
 #include "cli/confine.h"
 #include "cli/option_table.h"
 #include "cli/povray.h"
+#include "cli/share.h"
 
 void options_print_help(FILE *out)
 {
@@ -119,6 +120,7 @@ OptionsResult options_read(int argc, char **argv, Options *options)
                          .encoding = {.depth = RT_DEPTH_AUTO},
                          .antialias = {.threshold = 0.3},
                          .photons = 1000000,
+                         .checkpoint = -1.0,
                          .frames = {.clock_to = 1.0}};
     // No more paths and declarations than arguments.
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
@@ -159,9 +161,9 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
         options->scenes[options->scene_count++] = argv[optind];
     }
     if (options->scene_count == 0) {
-        return option_complain(&options->reading, "no scene given");
+        return option_complain(&options->reading, options->joins ? "no part given" : "no scene given");
     }
-    if (options->scene_count > 1 && (options->output || options->error_map)) {
+    if (options->scene_count > 1 && !options->joins && (options->output || options->error_map)) {
         return option_complain(&options->reading, "one file for the pictures of more than one scene: `%s` and `%s`", options->scenes[0],
                         options->scenes[1]);
     }
@@ -184,6 +186,9 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
         return option_complain(&options->reading, "one drawing for more than one scene: `%s` and `%s`",
                                options->scenes[0], options->scenes[1]);
     }
+    if (share_settle(options) != OPTIONS_GO) {
+        return OPTIONS_WRONG;
+    }
     return options->is_untrusted ? settle_untrusted(options) : OPTIONS_GO;
 }
 
@@ -194,6 +199,8 @@ void options_fini(Options *options)
     free(options->warnings);
     free(options->read_folders);
     free(options->scenes);
+    free(options->owned_joined);
+    free(options->command);
     free(options->rerun_text);
     free(options->rerun_words);
     free(options->rerun_output);

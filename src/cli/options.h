@@ -86,6 +86,17 @@ struct Options {
     uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
     double max_time; // seconds of the whole run; 0: as many as it takes
     bool is_untrusted, is_unconfined;
+    bool has_mpi;        // ranks share the picture, or deal frames
+    int rank, ranks;     // once they are known; 0 of 0: there are none
+    int part, parts;     // of the picture; 0 of 0: all of it
+    bool joins;          // the scenes are files of parts
+    const char **joined; // these, once it is known
+    int joined_count;
+    const char **owned_joined; // that list, where it is not that of scenes
+    double checkpoint;   // seconds between; < 0: none is kept
+    bool resumes;
+    char *command;       // the words of the command line, for files of parts; owned; NULL where none is made
+    bool has_kept;       // a run was interrupted that may be continued
     bool quiet;
     OptionReading reading;
 };

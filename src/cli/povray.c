@@ -14,6 +14,7 @@
 
 #include "cli/option_table.h"
 #include "cli/povray_read.h"
+#include "cli/share.h"
 
 static const char *base_name(const char *path)
 {
@@ -364,6 +365,9 @@ OptionsResult povray_parse(rt_session *session, int argc, char **argv, Povray *p
     } else if (result == OPTIONS_GO) {
         *status = povray_read(session, &povray->settings, words, count);
         *status = *status ? *status : follow(session, povray, options, voice);
+        if (!*status && share_settle(options) != OPTIONS_GO) {
+            *status = rt_report(session, "E0703", options->reading.complaint, NULL);
+        }
     }
     return *status ? OPTIONS_WRONG : result;
 }

@@ -15,14 +15,8 @@ static const char options_note[] = "rtlang:options";
 
 // ---- options as text
 
-// One word, `--name=value`.
-__attribute__((format(printf, 2, 3))) static void put(FILE *out, const char *format, ...)
+void provenance_put_word(FILE *out, const char *word)
 {
-    char word[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(word, sizeof word, format, arguments);
-    va_end(arguments);
     if (ftell(out) > 0) {
         putc(' ', out);
     }
@@ -32,6 +26,17 @@ __attribute__((format(printf, 2, 3))) static void put(FILE *out, const char *for
         }
         putc(*at, out);
     }
+}
+
+// One word, `--name=value`.
+__attribute__((format(printf, 2, 3))) static void put(FILE *out, const char *format, ...)
+{
+    char word[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(word, sizeof word, format, arguments);
+    va_end(arguments);
+    provenance_put_word(out, word);
 }
 
 static void put_text(FILE *out, const char *name, const char *value)
@@ -64,6 +69,15 @@ static void put_picture(FILE *out, const Options *options)
         put(out, "--file-gamma=%.17g", options->encoding.file_gamma);
     }
     put_flag(out, "alpha", options->has_alpha);
+    const struct {
+        const char *name;
+        double value;
+    } light[] = {{"sky-light", options->sky_light}, {"outline", options->outline}, {"depth-cue", options->depth_cue}};
+    for (size_t i = 0; i < RT_COUNT_OF(light); i++) {
+        if (light[i].value > 0.0) {
+            put(out, "--%s=%.17g", light[i].name, light[i].value);
+        }
+    }
     for (size_t i = 0; i < option_plane_count; i++) {
         if (options->encoding.planes & option_planes[i].plane) {
             put_text(out, "planes", option_planes[i].name);
@@ -159,8 +173,7 @@ char *provenance_options(const Options *options, double samples)
 
 // ---- and back
 
-// Splits the text where it stands; `words` has room for all. Returns how many.
-static int split(char *text, char **words)
+int provenance_split(char *text, char **words)
 {
     int count = 0;
     char *to = text;
@@ -218,7 +231,7 @@ rt_status provenance_recall(rt_session *session, int argc, char **argv, Options 
         return rt_report(session, "E0602", "out of memory reading options", NULL);
     }
     words[0] = argv[0];
-    int count = 1 + split(copy, words + 1);
+    int count = 1 + provenance_split(copy, words + 1);
     memcpy(words + count, argv + 1, (size_t)(argc - 1) * sizeof *words);
     options_fini(options);
     OptionsResult result = options_parse(count + argc - 1, words, options);

@@ -12,6 +12,11 @@
 // them.
 char *provenance_options(const Options *options, double samples);
 
+// One more word of such a text.
+void provenance_put_word(FILE *out, const char *word);
+// Splits one where it stands; `words` has room for all. Returns how many.
+int provenance_split(char *text, char **words);
+
 // --rerun: those of a picture, before the words that are given. Reads them anew into *options, which then holds the text
 // in `rerun_words`. RT_OK, or what was reported.
 rt_status provenance_recall(rt_session *session, int argc, char **argv, Options *options);

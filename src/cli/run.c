@@ -14,6 +14,7 @@
 #include "cli/frames.h"
 #include "cli/lsp.h"
 #include "cli/provenance.h"
+#include "cli/share.h"
 #include "cli/summary.h"
 #include "watch/watch.h"
 
@@ -259,11 +260,10 @@ static void say_summary(const rt_session *session, const Options *options, const
     }
 }
 
-static rt_status set_provenance(rt_session *session, const Options *options)
+// `samples` a pixel were taken; 0: that is not known yet.
+static rt_status set_provenance(rt_session *session, const Options *options, double samples)
 {
-    rt_error error;
-    rt_get_error(session, &error);
-    char *text = provenance_options(options, error.known ? error.samples : 0.0);
+    char *text = provenance_options(options, samples);
     rt_status status = text ? rt_set_provenance(session, text) : rt_report(session, "E0602", "out of memory", NULL);
     free(text);
     return status;
@@ -272,7 +272,9 @@ static rt_status set_provenance(rt_session *session, const Options *options)
 // Writes what there is to write, and tells of it.
 static rt_status finish(rt_session *session, const Options *options, const char *output, Voice *voice)
 {
-    rt_status status = set_provenance(session, options); // with what is known now
+    rt_error error;
+    rt_get_error(session, &error);
+    rt_status status = set_provenance(session, options, error.known ? error.samples : 0.0);
     status = status || options->has_no_output ? status : rt_write(session, output, &options->encoding);
     if (!status && options->error_map) {
         status = rt_write_error(session, options->error_map);
@@ -326,34 +328,61 @@ bool run_has_frame(const Options *options)
     return stat(output_name(options, name), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
 }
 
+static rt_status write_part(rt_session *session, const Options *options, const char *output, Voice *voice)
+{
+    char *name = share_part_name(options, output);
+    rt_status status = name ? rt_write_part(session, name) : rt_report(session, "E0602", "out of memory", NULL);
+    if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
+        say_summary(session, options, name, voice);
+    }
+    free(name);
+    return status;
+}
+
 // Of a scene that is loaded.
-static rt_status draw(rt_session *session, const Options *options, const char *output, Voice *voice)
+static rt_status draw(rt_session *session, Options *options, const char *output, Voice *voice)
 {
     progress_begin(&voice->progress, !options->quiet && !options->has_no_progress && options->format == RT_FORMAT_TEXT);
     rt_status status = rt_render(session, options->threads);
     progress_end(&voice->progress);
+    if (share_has_ranks(options) && status && status != RT_CANCELLED) {
+        rt_stop_ranks(session, (int)status); // the others would wait
+    }
+    if (share_has_ranks(options) && options->rank > 0) {
+        return status;
+    }
     int width, height;
     bool is_late = *voice->interrupted_by == SIGALRM; // then nothing is written
-    if (status == RT_CANCELLED && !is_late && rt_pixels(session, &width, &height)) {
+    options->has_kept = status == RT_CANCELLED && share_keeps(options);
+    if (status == RT_CANCELLED && !is_late && !options->has_kept && options->parts == 0 &&
+        rt_pixels(session, &width, &height)) {
         rt_status written = finish(session, options, output, voice);
         return written ? written : status;
     }
-    status = status ? status : finish(session, options, output, voice);
+    status = status               ? status
+             : options->parts > 0 ? write_part(session, options, output, voice)
+                                  : finish(session, options, output, voice);
+    if (!status) {
+        share_done(options, output);
+    }
     return !status && options->rerun ? compare_again(session, options, voice) : status;
 }
 
-static rt_status render(rt_session *session, const Options *options, Voice *voice)
+static rt_status render(rt_session *session, Options *options, Voice *voice)
 {
     char name[OUTPUT_NAME];
     const char *output = output_name(options, name);
+    bool is_silent = share_has_ranks(options) && options->rank > 0; // another rank writes
     rt_status status = set_sampling(session, options);
-    status = status || options->has_no_output ? status : check_output(session, options, output);
-    status = status ? status : set_provenance(session, options);
+    status = status || options->has_no_output || is_silent ? status : check_output(session, options, output);
+    status = status ? status : set_provenance(session, options, 0.0);
+    status = status ? status : share_set(session, options, output);
     if (!status && options->keeps_scene) {
         status = rt_expect_frames(session);
     }
     status = status ? status : rt_load_file(session, options->scene);
     status = status ? status : rt_set_method(session, options->method, options->photons);
+    status = share_agree(session, options, voice, status);
     if (status) {
         return status;
     }
@@ -367,7 +396,7 @@ static rt_status render(rt_session *session, const Options *options, Voice *voic
     return status ? status : draw(session, options, output, voice);
 }
 
-rt_status run_frame(rt_session *session, const Options *options, Voice *voice, bool *is_drawn)
+rt_status run_frame(rt_session *session, Options *options, Voice *voice, bool *is_drawn)
 {
     char name[OUTPUT_NAME];
     int is_set;
@@ -379,6 +408,8 @@ rt_status run_frame(rt_session *session, const Options *options, Voice *voice, b
     *is_drawn = true;
     const char *output = output_name(options, name);
     status = options->has_no_output ? RT_OK : check_output(session, options, output);
+    status = status ? status : set_provenance(session, options, 0.0);
+    status = status ? status : share_set(session, options, output);
     return status ? status : draw(session, options, output, voice);
 }
 
@@ -403,17 +434,24 @@ static char *folder_of(const char *path)
 // for: pictures of frames are all in one folder, and the folders of include files are those of all scenes.
 static rt_status confine_runs(rt_session *session, Options *options)
 {
-    const char *path, *writes[] = {options->output ? options->output
-                                   : options->action == ACTION_RENDER ? "./output.png" : NULL,
-                                   options->error_map, options->trace_svg};
+    const char *output = options->output ? options->output : options->action == ACTION_RENDER ? "./output.png" : NULL;
+    char *kept = output ? share_checkpoint_name(options, output) : NULL; // in the folder of parts, too
+    const char *path, *writes[] = {output, options->error_map, options->trace_svg, kept};
     bool writes_file = options->action == ACTION_RENDER || options->action == ACTION_FORMAT || options->trace_svg;
     size_t count = 0, folders = 0, scenes = (size_t)options->scene_count;
     while (rt_include_path(session, folders)) {
         folders++;
     }
-    const char **reads = calloc(2 * scenes + 2 + folders + (size_t)options->read_folder_count, sizeof *reads);
+    const char **reads = calloc(2 * scenes + 3 + folders + (size_t)options->read_folder_count +
+                                    (size_t)options->joined_count, sizeof *reads);
     char **own = calloc(scenes + 1, sizeof *own);
     bool is_whole = reads && own;
+    if (is_whole && options->resumes) {
+        reads[count++] = own[scenes] = kept ? folder_of(kept) : NULL;
+    }
+    for (int i = 0; is_whole && i < options->joined_count; i++) {
+        reads[count++] = options->joined[i];
+    }
     for (size_t i = 0; is_whole && i < scenes; i++) {
         reads[count++] = options->scenes[i];
         reads[count++] = own[i] = folder_of(options->scenes[i]);
@@ -431,16 +469,17 @@ static rt_status confine_runs(rt_session *session, Options *options)
         confine(&(Confinement){.reads = reads,
                                .read_count = count,
                                .writes = writes,
-                               .write_count = writes_file ? 3 : 0,
+                               .write_count = writes_file ? RT_COUNT_OF(writes) : 0,
                                .serves = options->action == ACTION_WATCH,
                                .is_strict = options->is_untrusted});
         options->is_unconfined = true; // the kernel holds to these rules: there are none to be added
     }
     rt_status status = is_whole ? RT_OK : rt_report(session, "E0602", "out of memory", NULL);
-    for (size_t i = 0; own && i < scenes; i++) {
+    for (size_t i = 0; own && i <= scenes; i++) {
         free(own[i]);
     }
     free(own);
+    free(kept);
     free(reads);
     return status;
 }
@@ -498,12 +537,19 @@ rt_status run(rt_session *session, Options *options, Voice *voice)
         [ACTION_TRACE_PIXEL] = trace_pixel,
         [ACTION_BUDGET] = budget,
     };
-    rt_status status = run_configure(session, options);
-    if (!status && options->action == ACTION_WATCH) {
+    int rank, ranks;
+    rt_status status = share_has_ranks(options) ? rt_join_ranks(session, &rank, &ranks) : RT_OK;
+    if (share_has_ranks(options)) {
+        voice_hold(voice); // until the ranks agree
+    }
+    status = status ? status : run_configure(session, options);
+    if (status) {
+        return share_agree(session, options, voice, status);
+    }
+    if (options->action == ACTION_WATCH) {
         return watch(session, options, voice);
     }
-    if (!status && !options->is_unconfined && options->action != ACTION_EXPLAIN &&
-        options->action != ACTION_SERVE) {
+    if (!options->is_unconfined && options->action != ACTION_EXPLAIN && options->action != ACTION_SERVE) {
         status = confine_runs(session, options);
     }
     if (status) {

@@ -18,7 +18,7 @@ rt_status run_print(rt_session *session, const char *text, rt_status status);
 
 // The frame of options->frame, of an animation whose frame before it the session has drawn; *is_drawn turns false where
 // the whole scene is to be read again, which is for `run` in a new session.
-rt_status run_frame(rt_session *session, const Options *options, Voice *voice, bool *is_drawn);
+rt_status run_frame(rt_session *session, Options *options, Voice *voice, bool *is_drawn);
 
 // Whether the picture of that frame is there.
 bool run_has_frame(const Options *options);

@@ -27,10 +27,16 @@ typedef struct Voice {
     bool is_mute[VOICE_STREAMS]; // not on stderr
     bool has_no_warnings;        // nowhere
     FILE *files[VOICE_STREAMS];  // NULL: none; owned
+    int rank;                    // of several processes; above 0 each text says so
+    bool is_held;                // what is fatal waits, until it is known whether rank 0 says the same
+    char *held;                  // that; owned; NULL: nothing
     const volatile sig_atomic_t *interrupted_by; // the first signal that ends runs, or 0
 } Voice;
 
 void voice_say(Voice *voice, VoiceStream stream, const char *text, size_t length);
+// Of a rank above 0: fatal texts wait, until they are said or forgotten.
+void voice_hold(Voice *voice);
+void voice_release(Voice *voice, bool is_said);
 // Closes the files; false when one could not be written.
 bool voice_close(Voice *voice);
 

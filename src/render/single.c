@@ -65,6 +65,12 @@ static void trace_tile(void *client, Tile tile, RenderScratch *scratch, RenderSt
     }
 }
 
+static void code_tile(void *client, Tile tile, TileBytes *bytes)
+{
+    const Single *single = client;
+    tile_bytes_light(bytes, single->film, tile);
+}
+
 static void forward_progress(void *client, double done)
 {
     const Single *single = client;
@@ -82,7 +88,14 @@ RenderResult render_film(const Prepared *prepared, const RenderOptions *options,
         return sampling_run(prepared, options, film, statistics, error);
     }
     Single single = {.prepared = prepared, .options = options, .film = film};
-    TileWork work = {&single, prepared, film->width, film->height, trace_tile, options->progress ? forward_progress : NULL};
+    TileWork work = {.client = &single,
+                     .prepared = prepared,
+                     .width = film->width,
+                     .height = film->height,
+                     .trace = trace_tile,
+                     .progress = options->progress ? forward_progress : NULL,
+                     .code = code_tile,
+                     .is_last = true};
     RenderResult result = tiles_run(&work, options, statistics);
     return atomic_load(&single.has_no_memory) ? RENDER_NO_MEMORY : result;
 }

@@ -372,7 +372,8 @@ RenderResult render_overlay(const Prepared *prepared, int threads, const Overlay
     Overlay overlay = {.prepared = prepared, .options = options, .film = film};
     overlay.margin = options->outline_width > 0.0 ? (int)ceil(0.5 * options->outline_width) + 2 : 1;
     prepared->abandon->cancel = NULL;
-    TileWork work = {&overlay, prepared, film->width, film->height, overlay_tile, NULL};
+    TileWork work = {
+        .client = &overlay, .prepared = prepared, .width = film->width, .height = film->height, .trace = overlay_tile};
     RenderStatistics unused = {0};
     RenderResult result = tiles_run(&work, &(RenderOptions){.threads = threads}, &unused);
     return atomic_load(&overlay.has_no_memory) ? RENDER_NO_MEMORY : result;

@@ -92,10 +92,27 @@ static void planes_tile(void *client, Tile tile, RenderScratch *scratch, RenderS
     }
 }
 
+static void code_tile(void *client, Tile tile, TileBytes *bytes)
+{
+    const PlanesWork *work = client;
+    for (int i = 0; i < FILM_PLANES; i++) {
+        if ((FILM_SURFACE_PLANES >> i & 1) && work->film->planes[i]) {
+            size_t pixel = (size_t)film_plane_channels((FilmPlane)i) * sizeof(float);
+            tile_bytes_plane(bytes, work->film->planes[i], pixel, work->film->width, tile);
+        }
+    }
+}
+
 RenderResult render_surface_planes(const Prepared *prepared, const RenderOptions *options, Film *film)
 {
     PlanesWork planes = {prepared, film};
-    TileWork work = {&planes, prepared, film->width, film->height, planes_tile, NULL};
+    TileWork work = {.client = &planes,
+                     .prepared = prepared,
+                     .width = film->width,
+                     .height = film->height,
+                     .trace = planes_tile,
+                     .code = code_tile,
+                     .is_last = true};
     RenderStatistics unused = {0};
     return tiles_run(&work, options, &unused);
 }

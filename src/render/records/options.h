@@ -12,6 +12,7 @@
 
 #include "render/points/filter.h"
 #include "render/points/sampler.h"
+#include "render/records/tile_share.h"
 
 // A scene for its kernel (render/records/prepared.h).
 typedef struct Prepared Prepared;
@@ -97,8 +98,14 @@ typedef struct RenderOptions {
     const atomic_bool *cancel;       // when it turns true, work stops soon; may be NULL
     const SamplingOptions *sampling; // NULL: one ray through the middle of each pixel, area lights as grids
     const AntialiasOptions *antialias; // without `sampling`: more rays where needed; NULL: none
+    const TileShare *share;            // NULL: all tiles are traced here
 } RenderOptions;
 
-typedef enum RenderResult { RENDER_OK, RENDER_CANCELLED, RENDER_NO_MEMORY } RenderResult;
+typedef enum RenderResult {
+    RENDER_OK,
+    RENDER_CANCELLED,
+    RENDER_NO_MEMORY,
+    RENDER_NOT_SHARED, // TILE_SHARE_BROKEN
+} RenderResult;
 
 #endif

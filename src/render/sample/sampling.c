@@ -116,6 +116,29 @@ static void trace_tile(void *client, Tile tile, RenderScratch *scratch, RenderSt
     }
 }
 
+// What trace_tile left; see tile_bytes.h.
+static void code_tile(void *client, Tile tile, TileBytes *bytes)
+{
+    Sampling *s = client;
+    if (s->traces == TRACES_REPLICAS) {
+        audit_code(&s->audit, tile.left, tile.right, bytes);
+    } else if (s->traces == TRACES_LOOKS) {
+        look_code(&s->round, &s->looks, tile, bytes);
+    } else if (s->round.is_corners) {
+        round_code_corners(&s->round, tile, bytes);
+    } else {
+        round_code(&s->round, tile, bytes);
+    }
+}
+
+// What rounds are chosen by where time is one of the goals: the same in all processes that share the work.
+static double seconds_now(const Sampling *s)
+{
+    const TileShare *share = s->wanted->time_limit > 0.0 ? s->options->share : NULL;
+    double own = clock_seconds();
+    return share ? share->seconds(share->client, own) : own;
+}
+
 // What rays would have brought that were not followed, if they were as bright as the picture is in the mean.
 static void find_bias(Sampling *s)
 {
@@ -133,13 +156,18 @@ static void find_bias(Sampling *s)
 
 static bool trace_round(Sampling *s)
 {
-    double start = clock_seconds();
+    double start = seconds_now(s);
     int more = s->round.is_corners ? 1 : 0; // there are more corners than pixels
-    TileWork work = {s, s->prepared, s->film->width + more, s->film->height + more, trace_tile,
-                     s->options->progress ? forward_progress : NULL};
+    TileWork work = {.client = s,
+                     .prepared = s->prepared,
+                     .width = s->film->width + more,
+                     .height = s->film->height + more,
+                     .trace = trace_tile,
+                     .progress = s->options->progress ? forward_progress : NULL,
+                     .code = code_tile};
     s->result = tiles_run(&work, s->options, s->statistics);
     bool is_whole = s->result == RENDER_OK;
-    s->round_end = clock_seconds();
+    s->round_end = seconds_now(s);
     if (is_whole) {
         s->sample_seconds = (s->round_end - start) / s->round_samples;
     }
@@ -179,7 +207,12 @@ static bool run_round(Sampling *s)
 // Traces what changes no pixel; false when it was cancelled.
 static bool trace_beside(Sampling *s, Traces traces)
 {
-    TileWork work = {s, s->prepared, s->film->width, s->film->height, trace_tile, NULL};
+    TileWork work = {.client = s,
+                     .prepared = s->prepared,
+                     .width = s->film->width,
+                     .height = s->film->height,
+                     .trace = trace_tile,
+                     .code = code_tile};
     if (traces == TRACES_REPLICAS) { // a row of picks, which are anywhere
         work.width = s->audit.count;
         work.height = 1;
@@ -187,7 +220,7 @@ static bool trace_beside(Sampling *s, Traces traces)
     s->traces = traces;
     RenderResult result = tiles_run(&work, s->options, &s->audited);
     s->traces = TRACES_ROUND;
-    s->result = result == RENDER_NO_MEMORY ? result : s->result;
+    s->result = result == RENDER_NO_MEMORY || result == RENDER_NOT_SHARED ? result : s->result;
     return result == RENDER_OK;
 }
 
@@ -246,7 +279,7 @@ static void predict(Sampling *s)
     double had = (double)s->estimate.samples, round = s->round_samples;
     double all = wanted->samples > 0.0 ? wanted->samples * pixel_count(s) : HUGE_VAL;
     if (wanted->time_limit > 0.0 && s->sample_seconds > 0.0) {
-        double left = fmax(wanted->time_limit - (clock_seconds() - s->start), 0.0);
+        double left = fmax(wanted->time_limit - (seconds_now(s) - s->start), 0.0);
         all = fmin(all, had + left / s->sample_seconds);
     }
     s->round_seconds = fmin(round, fmax(all - had, 0.0)) * s->sample_seconds;
@@ -334,7 +367,7 @@ static double audit_seconds(Sampling *s)
 // Seconds that rounds may still take; HUGE_VAL without a limit.
 static double seconds_left(Sampling *s)
 {
-    double limit = s->wanted->time_limit, gone = clock_seconds() - s->start;
+    double limit = s->wanted->time_limit, gone = seconds_now(s) - s->start;
     if (!(limit > 0.0) || s->error->samples == 0.0) {
         return HUGE_VAL;
     }
@@ -360,7 +393,7 @@ static Last run_slices(Sampling *s, double samples, double until)
     bool is_whole = true;
     s->round.is_cut = true;
     while (is_whole && had < samples && end > least_key) {
-        double left = until - clock_seconds(), want = samples - had, spent;
+        double left = until - seconds_now(s), want = samples - had, spent;
         if (until < HUGE_VAL) {
             want = fmin(want, fmax(left, 0.0) * (left > 5.0 * least * limit ? part : 1.0) / s->sample_seconds);
         }
@@ -402,7 +435,7 @@ static Last run_chosen(Sampling *s)
         return run_round(s) ? LAST_NOT : LAST_INTERRUPTED;
     }
     double all = fmin(samples, s->round_samples);
-    Last last = run_slices(s, all, clock_seconds() + seconds);
+    Last last = run_slices(s, all, seconds_now(s) + seconds);
     return last == LAST_DONE && all < samples ? LAST_NOT : last;
 }
 
@@ -637,7 +670,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     s->film = film;
     s->statistics = statistics;
     s->error = error;
-    s->start = s->round_end = clock_seconds();
+    s->start = s->round_end = seconds_now(s);
     s->audit_scale = AUDIT_FACTOR;
     s->audit_least = AUDIT_WIDTH;
     s->round.prepared = prepared;
@@ -656,7 +689,8 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
             error->end = SAMPLING_INTERRUPTED;
         }
     }
-    if (error->end != SAMPLING_INTERRUPTED && error->end != SAMPLING_TARGET && !wanted->has_no_estimate) {
+    bool is_part = options->share && options->share->is_part; // which knows of no others
+    if (error->end != SAMPLING_INTERRUPTED && error->end != SAMPLING_TARGET && !wanted->has_no_estimate && !is_part) {
         if (run_audit(s) && s->looks.count > 0) {
             look_show(&s->looks, s->round.small, film, error);
         }

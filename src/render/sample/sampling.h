@@ -145,6 +145,10 @@ void round_trace_corners(const Round *round, Tile tile, RenderScratch *scratch, 
 // Traces the samples of a tile's pixels.
 void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
 
+// sampling_bytes.c: what these left of a tile, which is the same for stop_trace, below.
+void round_code_corners(const Round *round, Tile tile, TileBytes *bytes);
+void round_code(const Round *round, Tile tile, TileBytes *bytes);
+
 // ---- sampling_stop.c: pixels that end where they have enough
 
 // Whether the samples that are wanted suffice to choose by: else all are taken.
@@ -235,6 +239,9 @@ void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *er
 void round_trace_replicas(const Round *round, Audit *audit, int begin, int end, RenderScratch *scratch,
                           RenderStatistics *counted);
 
+// sampling_bytes.c: what this left of the picks from `begin` on.
+void audit_code(Audit *audit, int begin, int end, TileBytes *bytes);
+
 // ---- sampling_look.c: what small shapes would bring that no sample has met
 
 enum { LOOK_MOST = 1024 };
@@ -261,6 +268,9 @@ int look_draw(Looks *looks, const Round *round, double samples);
 
 // Looks at the shapes of a tile's pixels, which changes no pixel.
 void look_trace(const Round *round, Looks *looks, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
+
+// sampling_bytes.c: what this left of a tile.
+void look_code(const Round *round, Looks *looks, Tile tile, TileBytes *bytes);
 
 // When all tiles are done.
 void look_judge(Looks *looks, const Round *round);

@@ -332,7 +332,8 @@ bool glints_find(Small *small, const RenderOptions *options, SpotIsNarrow *is_na
     if (!glints.of_pixel) {
         return false;
     }
-    TileWork work = {&glints, p, film->width, film->height, tile_search, NULL};
+    TileWork work = {
+        .client = &glints, .prepared = p, .width = film->width, .height = film->height, .trace = tile_search};
     RenderStatistics unused = {0};
     RenderResult result = tiles_run(&work, options, &unused);
     uint32_t before = small->spot_count;

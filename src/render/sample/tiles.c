@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "render/records/prepared.h"
 #include "render/sample/scratch.h"
@@ -17,8 +18,11 @@
 typedef struct Run {
     const TileWork *work;
     const RenderOptions *options;
-    int columns, tiles;
-    atomic_int next, done;
+    const TileShare *share; // NULL: the pass is not shared
+    int columns, tiles, before; // tiles that were traced before
+    double start;
+    atomic_int next, done, tracing; // tiles, tiles and threads
+    atomic_bool has_failed;         // for want of memory
     pthread_mutex_t lock; // of statistics
     RenderStatistics statistics;
 } Run;
@@ -65,22 +69,107 @@ static bool is_cancelled(const RenderOptions *options)
     return options->cancel && atomic_load_explicit(options->cancel, memory_order_relaxed);
 }
 
+static int next_tile(Run *run)
+{
+    if (run->share) {
+        return run->share->next(run->share->client);
+    }
+    int index = atomic_fetch_add(&run->next, 1);
+    return index < run->tiles ? index : -1;
+}
+
+// ---- what other processes are to know of a tile
+
+static void code_tile(const Run *run, int index, RenderStatistics *counted, TileBytes *bytes)
+{
+    tile_bytes_code(bytes, counted, sizeof *counted);
+    run->work->code(run->work->client, tile_at(run, index), bytes);
+}
+
+static void give_tile(Run *run, int index, RenderStatistics *counted)
+{
+    TileBytes bytes = {.way = TILE_BYTES_WRITE};
+    code_tile(run, index, counted, &bytes);
+    if (bytes.failed) {
+        atomic_store(&run->has_failed, true);
+    } else {
+        run->share->give(run->share->client, index, bytes.data, bytes.length);
+    }
+    tile_bytes_fini(&bytes);
+}
+
+static bool take_tile(void *client, int index, const unsigned char *data, size_t length)
+{
+    Run *run = client;
+    RenderStatistics counted = {0};
+    TileBytes expected = {.way = TILE_BYTES_COUNT};
+    TileBytes bytes = {.way = TILE_BYTES_READ, .data = (unsigned char *)data, .length = length};
+    if (index < 0 || index >= run->tiles) {
+        return false;
+    }
+    code_tile(run, index, &counted, &expected);
+    if (expected.length != length) {
+        return false;
+    }
+    code_tile(run, index, &counted, &bytes);
+    statistics_add(&run->statistics, &counted);
+    atomic_fetch_add(&run->done, 1);
+    return !bytes.failed;
+}
+
+static void tell_done(void *client, int tiles)
+{
+    const Run *run = client;
+    if (run->work->progress) {
+        run->work->progress(run->work->client, (double)tiles / run->tiles);
+    }
+}
+
+static bool is_to_stop(void *client)
+{
+    Run *run = client;
+    return is_cancelled(run->options) || atomic_load(&run->has_failed);
+}
+
+// While one thread serves, others trace: where none could be started, nothing would ever end.
+static bool is_to_stop_serving(void *client)
+{
+    enum { SECONDS_TO_START = 10 };
+    Run *run = client;
+    if (atomic_load(&run->tracing) == 0 && clock_seconds() - run->start > SECONDS_TO_START) {
+        atomic_store(&run->has_failed, true);
+    }
+    return is_to_stop(run);
+}
+
+// ---- threads
+
 static void trace_tiles(void *client, int thread)
 {
     Run *run = client;
     RenderStatistics sum = {0};
+    if (thread == 0 && run->share && run->share->serves) {
+        run->share->serve(run->share->client, tell_done, is_to_stop_serving, run);
+        return;
+    }
     RenderScratch *scratch = scratch_new();
     if (!scratch) {
         return;
     }
-    for (int index; (index = atomic_fetch_add(&run->next, 1)) < run->tiles && !is_cancelled(run->options);) {
-        run->work->trace(run->work->client, tile_at(run, index), scratch, &sum);
+    atomic_fetch_add(&run->tracing, 1);
+    for (int index; !is_to_stop(run) && (index = next_tile(run)) >= 0;) {
+        RenderStatistics own = {0};
+        run->work->trace(run->work->client, tile_at(run, index), scratch, &own);
         if (prepared_is_abandoned(run->work->prepared)) {
             break; // rays of the tile were left out
         }
+        statistics_add(&sum, &own);
+        if (run->share) {
+            give_tile(run, index, &own);
+        }
         int done = atomic_fetch_add(&run->done, 1) + 1;
-        if (thread == 0 && run->work->progress) {
-            run->work->progress(run->work->client, (double)done / run->tiles);
+        if (thread == 0) {
+            tell_done(run, run->before + done);
         }
     }
     scratch_free(scratch);
@@ -89,17 +178,46 @@ static void trace_tiles(void *client, int thread)
     pthread_mutex_unlock(&run->lock);
 }
 
+static RenderResult end_shared(Run *run)
+{
+    const TileShare *share = run->share;
+    bool is_stopped = is_to_stop(run);
+    TileShareResult result = share->end(share->client, is_stopped, take_tile, run);
+    return atomic_load(&run->has_failed)                                      ? RENDER_NO_MEMORY
+           : result == TILE_SHARE_BROKEN                                      ? RENDER_NOT_SHARED
+           : result == TILE_SHARE_STOPPED                                     ? RENDER_CANCELLED
+           : result == TILE_SHARE_ELSEWHERE || atomic_load(&run->done) == run->tiles ? RENDER_OK
+           : is_stopped                                                       ? RENDER_CANCELLED
+                                                                              : RENDER_NO_MEMORY;
+}
+
+static RenderResult run_shared(Run *run)
+{
+    const TileShare *share = run->share = run->options->share;
+    int threads = run->options->threads < run->tiles ? run->options->threads : run->tiles;
+    run->before = share->begin(share->client, run->tiles, run->work->is_last);
+    run->start = clock_seconds();
+    parallel_run(threads + share->serves, trace_tiles, run);
+    return end_shared(run);
+}
+
+static RenderResult run_alone(Run *run)
+{
+    parallel_run(run->options->threads < run->tiles ? run->options->threads : run->tiles, trace_tiles, run);
+    return atomic_load(&run->done) == run->tiles ? RENDER_OK
+           : is_cancelled(run->options)          ? RENDER_CANCELLED
+                                                 : RENDER_NO_MEMORY;
+}
+
 RenderResult tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics)
 {
     Run run = {.work = work, .options = options, .lock = PTHREAD_MUTEX_INITIALIZER};
     run.columns = (work->width + TILE_SIZE - 1) / TILE_SIZE;
     run.tiles = run.columns * ((work->height + TILE_SIZE - 1) / TILE_SIZE);
-    parallel_run(options->threads < run.tiles ? options->threads : run.tiles, trace_tiles, &run);
+    RenderResult result = options->share && work->code ? run_shared(&run) : run_alone(&run);
     pthread_mutex_destroy(&run.lock);
     statistics_add(statistics, &run.statistics);
-    return atomic_load(&run.done) == run.tiles ? RENDER_OK
-           : is_cancelled(options)             ? RENDER_CANCELLED
-                                               : RENDER_NO_MEMORY;
+    return result;
 }
 
 int render_default_threads(void)

@@ -8,6 +8,7 @@
 #include "render/records/kernel.h"
 #include "render/records/options.h"
 #include "render/sample/sample.h"
+#include "render/sample/tile_bytes.h"
 
 enum { TILE_SIZE = 32 };
 
@@ -19,6 +20,9 @@ typedef struct TileWork {
     // In the thread's own scratch; adds to what was counted.
     void (*trace)(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
     void (*progress)(void *client, double done); // 0 to 1; by one thread at a time; may be NULL
+    // What `trace` left of a tile, but for what it counted. NULL: it is traced in each process that needs it.
+    void (*code)(void *client, Tile tile, TileBytes *bytes);
+    bool is_last; // no tile of another pass needs what this one leaves
 } TileWork;
 
 // The part of a tile, of KERNEL_ROW by KERNEL_ROW pixels or less, that begins at a pixel.
@@ -34,7 +38,8 @@ uint64_t block_places(const Film *film, Tile block, double aside, KernelPlaces *
 
 void statistics_add(RenderStatistics *sum, const RenderStatistics *more);
 
-// Runs on options->threads threads, or as many of them as memory is found for; adds to the statistics.
+// Runs on options->threads threads, or as many of them as memory is found for, and as options->share says; adds to the
+// statistics, which are those of all tiles, whoever traced them.
 RenderResult tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics) RT_MUST_CHECK;
 
 #endif

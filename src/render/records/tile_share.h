@@ -1,0 +1,45 @@
+// Who traces which tiles of a picture, and how the others' results come here: the one table of functions by which the
+// work of a picture is shared, by parts of a job, by one process after the other, or by ranks.
+//
+// A picture is a sequence of passes over tiles (tiles_run). What is decided between two of them follows from what all
+// tiles left behind, in one order; so processes that know that decide alike, and each makes the picture that one alone
+// would. Rendering knows nothing of files, processes and networks; who implements this knows nothing of light.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_RECORDS_TILE_SHARE_H
+#define RENDER_RECORDS_TILE_SHARE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum TileShareResult {
+    TILE_SHARE_HERE,      // what was traced of the pass is here, or has been handed over
+    TILE_SHARE_ELSEWHERE, // each tile was traced, but others keep what they left
+    TILE_SHARE_STOPPED,   // another process stopped the work
+    TILE_SHARE_BROKEN,    // results cannot be had or kept; the one who shares knows why
+} TileShareResult;
+
+// Takes the bytes that a tile left in the process that traced it; false where no tile can have left them.
+typedef bool TileTake(void *client, int tile, const unsigned char *bytes, size_t length);
+
+typedef struct TileShare {
+    void *client;
+    bool is_part; // most tiles are never handed over: what follows from all of them is left out
+    bool serves;  // `serve` is to be called
+    // A pass over so many tiles begins, the next one of the picture. `is_last`: nothing is decided by what it leaves, so
+    // only who keeps the picture needs it. Returns how many have been traced before.
+    int (*begin)(void *client, int tiles, bool is_last);
+    // A tile to be traced here; -1: there is none left. Called by any thread.
+    int (*next)(void *client);
+    // What a tile left that was traced here. Called by any thread.
+    void (*give)(void *client, int tile, const unsigned char *bytes, size_t length);
+    // Runs beside the threads that trace, in the one that called tiles_run, until `end` may be called; tells now and
+    // then how many tiles are done. `stops` turns true when the work is to stop.
+    void (*serve)(void *client, void (*done)(void *run, int tiles), bool (*stops)(void *run), void *run);
+    // The threads are done. Hands over what other processes traced.
+    TileShareResult (*end)(void *client, bool is_stopped, TileTake *take, void *run);
+    // The clock that all decide by, where this process's own shows `own` seconds.
+    double (*seconds)(void *client, double own);
+} TileShare;
+
+#endif

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Pictures that ranks share over MPI: the bytes of one process, for any number of ranks, which tell who fails.
+
+Prints TAP. SPDX-License-Identifier: MIT
+"""
+import contextlib
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import tap  # noqa: E402
+from check_share import APART, PROGRAM, SIZE, WHOLE, Place, reference  # noqa: E402
+
+LONG = "CHECK_LONG" in os.environ
+COUNTS = (1, 2, 3, 5, 8, 16) if LONG else (3,)
+ENVIRONMENT = {"OMPI_MCA_btl": "self,vader,tcp", "OMPI_MCA_btl_base_warn_component_unused": "0",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_plm": "isolated"}
+
+
+def ranks(count):
+    return ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(count)]
+
+
+def has_module():
+    """Why there are no ranks, or an empty text."""
+    if not shutil.which("mpirun"):
+        return "no mpirun"
+    place = Place()
+    code, text = place.run(*SIZE, "--mpi", "-o", "x.png", "old.scn", before=ranks(1))
+    place.close()
+    return "" if code == 0 else text if "built without it" in text or "no rtlang_mpi.so" in text else ""
+
+
+def check_pictures(test, place):
+    ways = APART + WHOLE if LONG else APART[1:3] + APART[6:7] + APART[9:] + WHOLE[:3]
+    for scene, options, ending in ways:
+        expected, _ = reference(place, scene, options, ending)
+        for count in COUNTS:
+            name = "ranks" + ending
+            code, text = place.run(*SIZE, *options, "--mpi", "-t", str(random.choice([1, 1, 2])), "-o", name,
+                                   scene + ".scn", before=ranks(count))
+            test.ok(code == 0 and place.bytes(name) == expected,
+                    "%s, %s: %d ranks" % (scene, " ".join(options) or "one ray", count), "exit %d\n%s" % (code, text))
+            if place.bytes(name):
+                os.unlink(os.path.join(place.path, name))
+
+
+def check_error_map(test, place):
+    words = [*SIZE, "--samples=16", "-o", "m.png", "rich.scn"]
+    place.run(*words, "--error-map=one_map.png")
+    code, text = place.run(*words, "--error-map=ranks_map.png", "--mpi", before=ranks(3))
+    test.ok(code == 0 and place.bytes("one_map.png") == place.bytes("ranks_map.png"), "the map of errors", text)
+
+
+def check_frames(test, place):
+    words = [*SIZE, "--samples=2", "--frames=1..5", "rich.scn", "-o"]
+    place.run(*words, "f.png")
+    code, text = place.run(*words, "g.png", "--mpi", before=ranks(3))
+    test.ok(code == 0 and all(place.bytes("f%d.png" % i) == place.bytes("g%d.png" % i) for i in range(1, 6)),
+            "frames, dealt over three ranks", "exit %d\n%s" % (code, text))
+
+
+def of_ranks(test, place, name, code, expected, *runs):
+    """Ranks with words of their own: mpirun's form with colons."""
+    words = ["mpirun", "--allow-run-as-root", "--oversubscribe"]
+    for i, run in enumerate(runs):
+        words += [":"] * (i > 0) + ["-n", "1", PROGRAM, *SIZE, "--mpi", *run]
+    done = subprocess.run(words, cwd=place.path, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, timeout=120, check=False)
+    text = done.stdout.decode(errors="replace")
+    test.ok(done.returncode == code and expected in text, name, "exit %d\n%s" % (done.returncode, text))
+
+
+def check_faults(test, place):
+    of_ranks(test, place, "a rank with another scene", 2,
+             "error[E0712]: rank 1 of 3 would draw another picture: the scene's text is another one\n",
+             ["old.scn"], ["lens.scn"], ["old.scn"])
+    of_ranks(test, place, "a rank with other options", 2,
+             "error[E0712]: rank 2 of 3 would draw another picture: the options are others\n",
+             ["old.scn"], ["old.scn"], ["old.scn", "--samples=4"])
+    of_ranks(test, place, "a rank without the scene says so", 3, "rank 1: rtlang: error[E0501]: scene file `no.scn` not found",
+             ["old.scn"], ["no.scn"])
+    of_ranks(test, place, "and rank 0 says which", 3, "error[E0522]: rank 1 of 2 cannot draw the scene\n",
+             ["old.scn"], ["no.scn"])
+    code, text = place.run(*SIZE, "--mpi", "no.scn", before=ranks(3))
+    test.ok(code == 3 and text.count("E0501") == 1, "what all ranks would say is said once", "exit %d\n%s" % (code, text))
+    for words, expected in ((["--mpi", "--untrusted"], "`--mpi` is not for scenes of strangers"),
+                            (["--mpi", "--part=1/2"], "`--mpi` is for drawing pictures, without `--part`"),
+                            (["--mpi", "--method=forward"], "photons of `--method` cannot be shared or kept")):
+        code, text = place.run(*words, "old.scn")
+        test.ok(code == 2 and expected in text, "%s: refused" % " ".join(words), "exit %d\n%s" % (code, text))
+
+
+def children_of(process):
+    """The ranks of an mpirun."""
+    found = []
+    for entry in os.listdir("/proc"):
+        try:
+            with open("/proc/%s/stat" % entry, encoding="ascii", errors="replace") as file:
+                fields = file.read().rsplit(")", 1)[1].split()
+            if int(fields[1]) == process.pid:
+                found.append(int(entry))
+        except (OSError, ValueError, IndexError):
+            pass
+    return sorted(found)
+
+
+def check_kills(test, place, count):
+    """Runs of which a rank is killed at a random moment, and which are continued by another number of ranks."""
+    scene, options, ending = "rich", ["--samples=24"], ".png"
+    expected, seconds = reference(place, scene, options, ending)
+    wrong, killed, named, texts = 0, 0, 0, ""
+    for _ in range(count):
+        for name in os.listdir(place.path):
+            if name.startswith("killed"):
+                os.unlink(os.path.join(place.path, name))
+        words = [*SIZE, *options, "--mpi", "--checkpoint=0", "--resume", "-t", "1", "-o", "killed" + ending, scene + ".scn"]
+        process = subprocess.Popen([*ranks(3), PROGRAM, *words], cwd=place.path, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        time.sleep(0.3 + random.uniform(0.0, 2.0) * seconds)
+        victims = children_of(process)
+        if victims:
+            with contextlib.suppress(ProcessLookupError):  # it has ended by itself
+                os.kill(random.choice(victims), signal.SIGKILL)
+        text = process.communicate()[1].decode(errors="replace")
+        killed += process.returncode != 0
+        named += "rank" in text
+        code, more = place.run(*words, before=ranks(random.choice([1, 2, 4])))
+        if code or place.bytes("killed" + ending) != expected:
+            wrong, texts = wrong + 1, texts + text + more
+    test.ok(wrong == 0, "%d times a rank was killed, and others continued: the same pictures" % killed, texts)
+    test.ok(named == killed, "a rank that dies ends the run with a message that names it", texts)
+
+
+def main():
+    test = tap.Tap()
+    os.environ.update(ENVIRONMENT)
+    random.seed(int(os.environ.get("SEED", "1")))
+    why = has_module()
+    if why:
+        test.skip("ranks of MPI", why.splitlines()[0])
+    else:
+        place = Place()
+        check_pictures(test, place)
+        check_error_map(test, place)
+        check_frames(test, place)
+        check_faults(test, place)
+        check_kills(test, place, 100 if LONG else 2)
+        place.close()
+    test.done()
+
+
+main()
