@@ -43,12 +43,12 @@ rt_status rt_join_ranks(rt_session *session, int *rank, int *ranks)
     }
     ModuleResult result = module_load(&kind, &found, why, sizeof why);
     const MpiModule *module = found;
-    const char *fault = result == MODULE_NO_MEMORY                                  ? "out of memory"
-                        : result != MODULE_OK                                       ? why
-                        : !module->is_whole                                         ? "this rtlang was built without it"
-                        : !module->begin(rank, ranks)                               ? "MPI does not begin"
-                        : !ranks_init(&sharing->ranks, module, *rank, *ranks)       ? "out of memory"
-                                                                                    : NULL;
+    const char *fault = result == MODULE_NO_MEMORY                            ? "out of memory"
+                        : result != MODULE_OK                                 ? why
+                        : !module->is_whole                                   ? "this rtlang was built without it"
+                        : !module->begin(rank, ranks)                         ? "MPI does not begin"
+                        : !ranks_init(&sharing->ranks, module, *rank, *ranks) ? "out of memory"
+                                                                              : NULL;
     if (fault) {
         if (diag_report(&session->diags, DIAG_E0521, SPAN_NONE, "`--mpi` needs MPI: %s", fault)) {
             diag_suggest(&session->diags, "install libopenmpi-dev and make rtlang again, or use `--part` and `--join`");
@@ -186,7 +186,8 @@ static bool make_head(const rt_session *session, PartialHead *head)
     return is_whole && partial_head_set(head, PARTIAL_PICTURES, text) && partial_head_set(head, PARTIAL_FILES, files) &&
            partial_head_set(head, PARTIAL_VERSION, rt_version()) &&
            partial_head_set(head, PARTIAL_OPTIONS, session->provenance) &&
-           partial_head_set(head, PARTIAL_COMMAND, sharing->command ? sharing->command : "") && partial_head_set(head, PARTIAL_PART, part);
+           partial_head_set(head, PARTIAL_COMMAND, sharing->command ? sharing->command : "") &&
+           partial_head_set(head, PARTIAL_PART, part);
 }
 
 // ---- files
@@ -200,7 +201,9 @@ static bool report_read(rt_session *session, PartialResult result, const char *p
         diag_report(&session->diags, DIAG_E0520, SPAN_NONE, "`%s` is no file of partial results of this version", path);
     } else if (result != PARTIAL_OK) {
         diag_report(&session->diags, DIAG_E0520, SPAN_NONE, "cannot read `%s`: %s", path,
-                    strerror(result == PARTIAL_NONE ? ENOENT : errno ? errno : EIO));
+                    strerror(result == PARTIAL_NONE ? ENOENT
+                             : errno                ? errno
+                                                    : EIO));
     }
     return result == PARTIAL_OK;
 }
@@ -250,7 +253,8 @@ static bool part_fits(rt_session *session, const Partial *file, const char *path
         return fail_part(session, DIAG_E0520, path, "is a checkpoint, not a part of a picture");
     }
     if (*parts > 0 && all != *parts) {
-        snprintf(what, sizeof what, "is a part of %d, where `%.80s` is one of %d", all, session->sharing.joined[0], *parts);
+        snprintf(what, sizeof what, "is a part of %d, where `%.80s` is one of %d", all, session->sharing.joined[0],
+                 *parts);
         return fail_part(session, DIAG_E0713, path, what);
     }
     *parts = all;
@@ -338,8 +342,10 @@ static bool read_checkpoint(rt_session *session, Store *store)
         return false;
     }
     if (file.is_broken) {
-        diag_report(&session->diags, DIAG_W0503, SPAN_NONE, "`%s` is not whole: what follows its first %zu results is "
-                    "traced again", path, file.records.count);
+        diag_report(&session->diags, DIAG_W0503, SPAN_NONE,
+                    "`%s` is not whole: what follows its first %zu results is "
+                    "traced again",
+                    path, file.records.count);
     }
     return store_know(store, &file, 1);
 }
@@ -360,11 +366,11 @@ static bool keep_checkpoint(rt_session *session, Store *store)
 static bool part_is_possible(rt_session *session)
 {
     const SamplingOptions *sampling = &session->sampling;
-    const char *what = !session->sharing.is_part             ? NULL
-                       : sampling->target_error > 0.0         ? "the rounds of `--target-error` follow from the whole picture"
-                       : sampling->time_limit > 0.0           ? "the rounds of `--time-limit` follow from the whole picture"
-                       : sampling->is_adaptive                ? "the rounds of `--adaptive` follow from the whole picture"
-                                                              : NULL;
+    const char *what = !session->sharing.is_part      ? NULL
+                       : sampling->target_error > 0.0 ? "the rounds of `--target-error` follow from the whole picture"
+                       : sampling->time_limit > 0.0   ? "the rounds of `--time-limit` follow from the whole picture"
+                       : sampling->is_adaptive        ? "the rounds of `--adaptive` follow from the whole picture"
+                                                      : NULL;
     if (what) {
         diag_report(&session->diags, DIAG_E0703, SPAN_NONE, "`--part` cannot be combined with that: %s", what);
         diag_suggest(&session->diags, "give `--samples=N` alone, or share the picture by `--mpi`");
@@ -380,7 +386,8 @@ static bool share_is_possible(rt_session *session)
         return false;
     }
     if (!session->provenance || !session->has_digest) {
-        diag_report(&session->diags, DIAG_E0709, SPAN_NONE, "rt_set_sharing wants rt_set_provenance before the scene is loaded");
+        diag_report(&session->diags, DIAG_E0709, SPAN_NONE,
+                    "rt_set_sharing wants rt_set_provenance before the scene is loaded");
         return false;
     }
     return part_is_possible(session);
@@ -471,7 +478,8 @@ void session_sharing_report(rt_session *session)
         return; // rank 0 knows and reports
     }
     if (store->fault == STORE_NOT_WRITTEN) {
-        diag_report(&session->diags, DIAG_E0505, SPAN_NONE, "cannot write `%s`: %s", store->path, strerror(store->error));
+        diag_report(&session->diags, DIAG_E0505, SPAN_NONE, "cannot write `%s`: %s", store->path,
+                    strerror(store->error));
     } else if (store->fault == STORE_MISFIT) {
         diag_report(&session->diags, DIAG_E0520, SPAN_NONE, "`%s` holds what no tile of this picture can have left",
                     sharing->joined_count > 0 ? sharing->joined[0] : sharing->checkpoint);

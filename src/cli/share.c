@@ -242,8 +242,8 @@ rt_status share_set(rt_session *session, const Options *options, const char *out
                           .joined = options->joined,
                           .joined_count = (size_t)options->joined_count,
                           .command = options->command};
-    rt_status status = keeps && !checkpoint ? rt_report(session, "E0602", "out of memory", NULL)
-                                            : rt_set_sharing(session, &sharing);
+    rt_status status =
+        keeps && !checkpoint ? rt_report(session, "E0602", "out of memory", NULL) : rt_set_sharing(session, &sharing);
     free(checkpoint);
     return status;
 }

@@ -1,5 +1,5 @@
-// One process that traces all tiles, or those of one part, beside what is known from before: parts of a job, their joining,
-// and runs that are continued.
+// One process that traces all tiles, or those of one part, beside what is known from before: parts of a job, their
+// joining, and runs that are continued.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SHARE_ALONE_H

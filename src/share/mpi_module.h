@@ -12,8 +12,8 @@
 
 // Raised with each change of the structures below; a module of another version is passed over.
 #define MPI_MODULE_VERSION 1u
-#define MPI_MODULE_FILE "rtlang_mpi.so"
-#define MPI_MODULE_SYMBOL "rtlang_mpi_module"
+#define MPI_MODULE_FILE    "rtlang_mpi.so"
+#define MPI_MODULE_SYMBOL  "rtlang_mpi_module"
 
 typedef struct MpiModule {
     unsigned version; // stays the first member

@@ -19,14 +19,14 @@
 
 // What the head says, each a text.
 typedef enum PartialField {
-    PARTIAL_VERSION,  // of the program
-    PARTIAL_SCENE,    // the digest of its text
-    PARTIAL_FILES,    // of the files that it includes
-    PARTIAL_PICTURES, // of those that it shows
-    PARTIAL_OPTIONS,  // from which the picture follows
-    PARTIAL_RESULTS,  // up to here two files are compared
+    PARTIAL_VERSION,                   // of the program
+    PARTIAL_SCENE,                     // the digest of its text
+    PARTIAL_FILES,                     // of the files that it includes
+    PARTIAL_PICTURES,                  // of those that it shows
+    PARTIAL_OPTIONS,                   // from which the picture follows
+    PARTIAL_RESULTS,                   // up to here two files are compared
     PARTIAL_COMMAND = PARTIAL_RESULTS, // the words of the command line, as --rerun has them
-    PARTIAL_PART,     // "2/8"; "": all tiles
+    PARTIAL_PART,                      // "2/8"; "": all tiles
     PARTIAL_FIELDS,
 } PartialField;
 

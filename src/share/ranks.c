@@ -1,8 +1,8 @@
 // Tiles dealt over ranks: see ranks.h.
 //
-// A rank asks for tiles before those that it has are done, so that a thread seldom waits; the fewer are left, the fewer it
-// gets at once. A pass ends when rank 0 has all tiles: it says so, hears from each rank that nothing more comes of it,
-// and then, unless the pass is the picture's last, gives all what all have left.
+// A rank asks for tiles before those that it has are done, so that a thread seldom waits; the fewer are left, the fewer
+// it gets at once. A pass ends when rank 0 has all tiles: it says so, hears from each rank that nothing more comes of
+// it, and then, unless the pass is the picture's last, gives all what all have left.
 //
 // SPDX-License-Identifier: MIT
 #include "share/ranks.h"
@@ -16,7 +16,7 @@ typedef enum Word { WORD_ASK, WORD_TILES, WORD_RESULT, WORD_STOP, WORD_END, WORD
 
 enum {
     TILES_AT_ONCE = 32,
-    ROUNDS = 8,              // in about so many askings of each rank a pass is dealt
+    ROUNDS = 8,               // in about so many askings of each rank a pass is dealt
     IDLE_NANOSECONDS = 50000, // between looks for messages; twice as long after each in vain, …
     IDLE_DOUBLINGS = 4,       // … so often
     NUMBER = sizeof(int32_t),

@@ -1,5 +1,5 @@
-// Ranks that share the tiles of a picture: rank 0 deals them as they are asked for, gathers what they left, and gives it
-// to all where they decide by it.
+// Ranks that share the tiles of a picture: rank 0 deals them as they are asked for, gathers what they left, and gives
+// it to all where they decide by it.
 //
 // One thread of each rank talks to the others, by a module that knows how (share/mpi_module.h), while the others trace.
 // What each rank then knows is the same, so all of them come to the same next pass; rank 0 has the picture.
@@ -45,8 +45,9 @@ void ranks_fini(Ranks *ranks);
 // Before a picture. The store is that of its head.
 void ranks_use(Ranks *ranks, Store *store);
 
-// What the ranks think of each other before a picture: whether each of them is `ready`, and has the head that rank 0 has.
-// The first rank for which that does not hold, or -1; *differs: how, PARTIAL_RESULTS: it is not ready. All ranks call it.
+// What the ranks think of each other before a picture: whether each of them is `ready`, and has the head that rank 0
+// has. The first rank for which that does not hold, or -1; *differs: how, PARTIAL_RESULTS: it is not ready. All ranks
+// call it.
 int ranks_agree(Ranks *ranks, bool ready, const PartialHead *head, PartialField *differs);
 
 #endif

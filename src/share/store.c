@@ -184,9 +184,8 @@ int store_begin_pass(Store *store, int tiles)
     store->pass = store->passes++;
     free(store->is_known);
     store->is_known = NULL;
-    for (store->first = store->end; store->first < store->records.count &&
-                                    store->records.items[store->first].pass < store->pass;
-         store->first++) {
+    for (store->first = store->end;
+         store->first < store->records.count && store->records.items[store->first].pass < store->pass; store->first++) {
     }
     for (store->end = store->first;
          store->end < store->records.count && store->records.items[store->end].pass == store->pass; store->end++) {

@@ -1,7 +1,8 @@
 // What is known of a picture's tiles from before, and the file in which more of them are kept.
 //
-// Known records are those of parts or of a checkpoint. What is added is kept for a part's file, and written now and then
-// to a checkpoint's, each record once, at its end: a process that is killed leaves all but what it had not written.
+// Known records are those of parts or of a checkpoint. What is added is kept for a part's file, and written now and
+// then to a checkpoint's, each record once, at its end: a process that is killed leaves all but what it had not
+// written.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SHARE_STORE_H
@@ -31,7 +32,7 @@ typedef struct Store {
     double clock_behind;  // of that of this process
     // The pass.
     uint32_t pass, passes;
-    size_t first, end;      // of its records
+    size_t first, end;       // of its records
     unsigned char *is_known; // of each tile; owned
     // What is added.
     pthread_mutex_t lock;
@@ -41,8 +42,8 @@ typedef struct Store {
     const char *path;            // of the checkpoint; the caller's; NULL: none
     int fd;
     double interval, written_at; // seconds
-    _Atomic(StoreFault) fault; // the first
-    int error;                 // errno
+    _Atomic(StoreFault) fault;   // the first
+    int error;                   // errno
 } Store;
 
 bool store_init(Store *store) RT_MUST_CHECK;
@@ -51,8 +52,8 @@ void store_fini(Store *store);
 // Takes over what files have, of which none has another head. False when out of memory.
 bool store_know(Store *store, const Partial *files, int count) RT_MUST_CHECK;
 
-// From now on, what is added is in the file at `path` after as many seconds, beside what is known. False when it cannot be
-// written, which `error` tells.
+// From now on, what is added is in the file at `path` after as many seconds, beside what is known. False when it cannot
+// be written, which `error` tells.
 bool store_keep(Store *store, const char *path, double seconds, ImageError *error) RT_MUST_CHECK;
 
 // The next pass, over so many tiles. Returns how many of them are known.

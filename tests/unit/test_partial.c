@@ -16,7 +16,8 @@ static const char scene[] =
     "#version 3.7; global_settings { assumed_gamma 1 }\n"
     "camera { location <0, 1, -6> look_at 0 }\n"
     "light_source { <5, 8, -6> rgb 1 area_light x, y, 2, 2 }\n"
-    "sphere { <0.6, 0, 0>, 1 pigment { rgbt <1, 1, 1, 0.8> } interior { ior 1.5 } finish { specular 1 roughness 0.001 } }\n"
+    "sphere { <0.6, 0, 0>, 1 pigment { rgbt <1, 1, 1, 0.8> } interior { ior 1.5 } finish { specular 1 roughness 0.001 "
+    "} }\n"
     "#declare I = 0; #while (I < 30) sphere { <mod(I * 0.37, 4) - 2, mod(I * 0.61, 2) - 0.9, 1>, 0.02\n"
     "  pigment { rgb <1, 0.6, 0.3> } } #declare I = I + 1; #end\n"
     "plane { y, -1 pigment { rgb 0.7 } }\n";
@@ -177,8 +178,10 @@ int main(void)
         size_t size = 0, again = 0;
         rt_status status, second;
         int refused = 0, others = 0;
-        unsigned char *one = draw(&ways[i], path, false, &size, &status), *other = draw(&ways[i], path, true, &again, &second);
-        tap_ok(one && other && size == again && memcmp(one, other, size) == 0, "%s: continued from its end", ways[i].name);
+        unsigned char *one = draw(&ways[i], path, false, &size, &status),
+                      *other = draw(&ways[i], path, true, &again, &second);
+        tap_ok(one && other && size == again && memcmp(one, other, size) == 0, "%s: continued from its end",
+               ways[i].name);
         free(one);
         free(other);
         try_broken(&ways[i], break_bytes, path, turns, &refused, &others);

@@ -26,8 +26,8 @@ typedef struct TileShare {
     void *client;
     bool is_part; // most tiles are never handed over: what follows from all of them is left out
     bool serves;  // `serve` is to be called
-    // A pass over so many tiles begins, the next one of the picture. `is_last`: nothing is decided by what it leaves, so
-    // only who keeps the picture needs it. Returns how many have been traced before.
+    // A pass over so many tiles begins, the next one of the picture. `is_last`: nothing is decided by what it leaves,
+    // so only who keeps the picture needs it. Returns how many have been traced before.
     int (*begin)(void *client, int tiles, bool is_last);
     // A tile to be traced here; -1: there is none left. Called by any thread.
     int (*next)(void *client);

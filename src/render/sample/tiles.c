@@ -18,12 +18,12 @@
 typedef struct Run {
     const TileWork *work;
     const RenderOptions *options;
-    const TileShare *share; // NULL: the pass is not shared
+    const TileShare *share;     // NULL: the pass is not shared
     int columns, tiles, before; // tiles that were traced before
     double start;
     atomic_int next, done, tracing; // tiles, tiles and threads
     atomic_bool has_failed;         // for want of memory
-    pthread_mutex_t lock; // of statistics
+    pthread_mutex_t lock;           // of statistics
     RenderStatistics statistics;
 } Run;
 
@@ -183,12 +183,12 @@ static RenderResult end_shared(Run *run)
     const TileShare *share = run->share;
     bool is_stopped = is_to_stop(run);
     TileShareResult result = share->end(share->client, is_stopped, take_tile, run);
-    return atomic_load(&run->has_failed)                                      ? RENDER_NO_MEMORY
-           : result == TILE_SHARE_BROKEN                                      ? RENDER_NOT_SHARED
-           : result == TILE_SHARE_STOPPED                                     ? RENDER_CANCELLED
+    return atomic_load(&run->has_failed)                                             ? RENDER_NO_MEMORY
+           : result == TILE_SHARE_BROKEN                                             ? RENDER_NOT_SHARED
+           : result == TILE_SHARE_STOPPED                                            ? RENDER_CANCELLED
            : result == TILE_SHARE_ELSEWHERE || atomic_load(&run->done) == run->tiles ? RENDER_OK
-           : is_stopped                                                       ? RENDER_CANCELLED
-                                                                              : RENDER_NO_MEMORY;
+           : is_stopped                                                              ? RENDER_CANCELLED
+                                                                                     : RENDER_NO_MEMORY;
 }
 
 static RenderResult run_shared(Run *run)
