@@ -25,26 +25,27 @@ syn keyword rtlangConstant array clock clock_on false function no now off on pi 
 syn keyword rtlangColour alpha blue color colour filter gray green red rgb rgbf rgbft rgbt srgb srgbf srgbft
 syn keyword rtlangColour srgbt transmit
 syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo ambient ambient_light angle
-syn keyword rtlangWord aperture area_light assumed_gamma average background blur_samples bounded_by box boxed
-syn keyword rtlangWord bozo brick brick_size brilliance bump_size bumps camera caustics cells charset checker
-syn keyword rtlangWord circular clipped_by color_map colour_map cone confidence conserve_energy control0
-syn keyword rtlangWord control1 crackle cubic_wave cylinder cylindrical dents difference diffuse direction
-syn keyword rtlangWord disc distance emission exponent exr fade_color fade_colour fade_distance fade_power
-syn keyword rtlangWord falloff finish fisheye focal_point fog fog_alt fog_offset fog_type form frequency
-syn keyword rtlangWord fresnel gamma global_settings gradient granite hdr hexagon hollow image_map interior
-syn keyword rtlangWord interpolate intersection inverse ior jitter jpeg julia lambda leopard light_source
-syn keyword rtlangWord location look_at looks_like mandel map_type marble material matrix max_intersections
-syn keyword rtlangWord max_trace_level media_attenuation media_interaction merge metallic metric mm_per_unit
-syn keyword rtlangWord mortar no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator
-syn keyword rtlangWord normal normal_map number_of_waves object octaves offset omega once onion open orient
-syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
-syn keyword rtlangWord pigment_map planar plane png point_at poly_wave ppm premultiplied quick_color
-syn keyword rtlangWord quick_colour quilted radial radius ramp_wave reflection reflection_exponent refraction
-syn keyword rtlangWord right ripples rotate roughness scale scallop_wave shadowless sine_wave sky sky_sphere
-syn keyword rtlangWord slope_map smooth_triangle solid specular sphere spherical spiral1 split_union spotlight
-syn keyword rtlangWord spotted sturm texture texture_map tga tiff tightness torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
-syn keyword rtlangWord variance waves wood wrinkles
+syn keyword rtlangWord aperture area_light assumed_gamma average background blob blur_samples bounded_by box
+syn keyword rtlangWord boxed bozo brick brick_size brilliance bump_size bumps camera caustics cells charset
+syn keyword rtlangWord checker circular clipped_by color_map colour_map component cone confidence
+syn keyword rtlangWord conserve_energy control0 control1 crackle cubic cubic_wave cylinder cylindrical dents
+syn keyword rtlangWord difference diffuse direction disc distance emission exponent exr fade_color fade_colour
+syn keyword rtlangWord fade_distance fade_power falloff finish fisheye focal_point fog fog_alt fog_offset
+syn keyword rtlangWord fog_type form frequency fresnel gamma global_settings gradient granite hdr hexagon
+syn keyword rtlangWord hierarchy hollow image_map interior interpolate intersection inverse ior jitter jpeg
+syn keyword rtlangWord julia lambda leopard light_source location look_at looks_like mandel map_type marble
+syn keyword rtlangWord material matrix max_intersections max_trace_level media_attenuation media_interaction
+syn keyword rtlangWord merge metallic metric mm_per_unit mortar no_bump_scale no_image no_radiosity
+syn keyword rtlangWord no_reflection no_shadow noise_generator normal normal_map number_of_waves object
+syn keyword rtlangWord octaves offset omega once onion open orient orthographic panoramic parallel pattern
+syn keyword rtlangWord perspective pgm phase phong phong_size pigment pigment_map planar plane png point_at
+syn keyword rtlangWord poly poly_wave ppm premultiplied quadric quartic quick_color quick_colour quilted
+syn keyword rtlangWord radial radius ramp_wave reflection reflection_exponent refraction right ripples rotate
+syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope_map
+syn keyword rtlangWord smooth_triangle solid specular sphere spherical spiral1 split_union spotlight spotted
+syn keyword rtlangWord sturm texture texture_map tga threshold tiff tightness torus transform translate
+syn keyword rtlangWord triangle triangle_wave turb_depth turbulence ultra_wide_angle union up use_color
+syn keyword rtlangWord use_colour variance waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number
