@@ -276,7 +276,7 @@ static const SchemaProperty quadric_arguments[] = {
     {"constant", TYPE_NUMBER, AT(PolynomialDesc, constant), .doc = "J; the sum of all is 0 on the surface"},
 };
 
-#define COEFFICIENTS "by falling powers of x, then of y, then of z: x³, x²y, x²z, x², xy², …, 1 for order 3"
+#define COEFFICIENTS "by falling powers of x, then of y, then of z: x³, x²y, x²z, x², xy², …"
 
 static const SchemaProperty cubic_arguments[] = {
     {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
@@ -316,12 +316,12 @@ static const SchemaProperty blob_rod_arguments[] = {
 };
 
 static const BlobDesc blob_defaults = {.part = OBJECT_PART, .threshold = 1.0};
-static const BlobPartDesc blob_part_defaults = {.transform = IDENTITY, .strength = 1.0};
+static const BlobPartDesc blob_part_defaults = {.transform = IDENTITY, .radius = 1.0, .strength = 1.0};
 
 static const PolynomialDesc quadric_defaults = {.part = OBJECT_PART, .order = 2};
 static const PolynomialDesc cubic_defaults = {.part = OBJECT_PART, .order = 3};
 static const PolynomialDesc quartic_defaults = {.part = OBJECT_PART, .order = 4};
-static const PolynomialDesc poly_defaults = {.part = OBJECT_PART};
+static const PolynomialDesc poly_defaults = {.part = OBJECT_PART, .order = 2};
 
 static const SchemaProperty triangle_arguments[] = {
     {"first corner", TYPE_VECTOR, AT(TriangleDesc, corners[0]), .doc = "in any order"},

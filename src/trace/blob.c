@@ -15,10 +15,10 @@
 #include "scene/blob.h"
 #include "trace/roots.h"
 
-enum { FIRST_FEW = 4, NODES_DEEP = 64, DEGREE = 4 };
+enum { FIRST_FEW = 2, NODES_DEEP = 64, DEGREE = 4 };
 
 // A root is as good as the rest of a crossing if it is off by so many u of all that makes its place.
-static const double GOOD_ROOT = 0x1p-49;
+static const double GOOD_ROOT = 0x1p-44;
 
 typedef enum Section { SECTION_BALL, SECTION_ROD, SECTION_TOP } Section;
 
@@ -36,8 +36,7 @@ typedef struct Line {
     Stretch *stretches; // room for three of each component
     unsigned count;
     bool is_start;
-    double threshold;
-    DoubleWord exact_threshold;
+    double threshold, threshold_error; // of a ray that starts on the surface: the field there
     // Of the part of the line that is looked at: its middle or, where the ray starts in it on the surface, its start.
     double base;
     bool is_reduced; // its polynomial is divided by t
@@ -194,30 +193,42 @@ static void exact_depth(const Stretch *stretch, const Ray *ray, double base, Dou
     }
 }
 
-static void exact_sum(const Line *line, double base, DoubleWord sum[DEGREE + 1])
+static void exact_add(const Stretch *stretch, const Ray *ray, double base, DoubleWord sum[DEGREE + 1])
 {
-    for (int i = 0; i <= DEGREE; i++) {
-        sum[i] = (DoubleWord){0.0, 0.0};
-    }
-    for (unsigned k = 0; k < line->active_count; k++) {
-        DoubleWord inner[3];
-        exact_depth(line->active[k], line->ray, base, inner);
-        for (int i = 0; i < 3; i++) {
-            for (int j = 0; j < 3; j++) {
-                DoubleWord term = double_word_scale(double_word_mul(inner[i], inner[j]), line->active[k]->strength);
-                sum[i + j] = double_word_add(sum[i + j], term);
-            }
+    DoubleWord inner[3];
+    exact_depth(stretch, ray, base, inner);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            DoubleWord term = double_word_scale(double_word_mul(inner[i], inner[j]), stretch->strength);
+            sum[i + j] = double_word_add(sum[i + j], term);
         }
     }
+}
+
+// The threshold, or the field where the ray starts.
+static DoubleWord exact_threshold(const Line *line)
+{
+    DoubleWord sum[DEGREE + 1] = {{0.0, 0.0}};
+    if (!line->is_start) {
+        return (DoubleWord){line->threshold, 0.0};
+    }
+    for (unsigned k = 0; k < line->count; k++) {
+        if (line->stretches[k].from <= 0.0) {
+            exact_add(&line->stretches[k], line->ray, 0.0, sum);
+        }
+    }
+    return sum[0];
 }
 
 // What the root finder asks for.
 static void refine(Polynomial *polynomial, const void *owner)
 {
     const Line *line = owner;
-    DoubleWord sum[DEGREE + 1];
-    exact_sum(line, line->base, sum);
-    sum[0] = double_word_sub(sum[0], line->exact_threshold);
+    DoubleWord sum[DEGREE + 1] = {{0.0, 0.0}};
+    for (unsigned k = 0; k < line->active_count; k++) {
+        exact_add(line->active[k], line->ray, line->base, sum);
+    }
+    sum[0] = double_word_sub(sum[0], exact_threshold(line));
     for (unsigned i = 0; i <= polynomial->degree; i++) {
         polynomial->exact[i] = sum[i + line->is_reduced];
     }
@@ -255,6 +266,7 @@ static void line_polynomial(const Line *line, Polynomial *p)
         p->sizes[i] = sizes[i + first] * (greatest * greatest);
         p->errors[i] = rounding * sizes[i + first];
     }
+    p->errors[0] += first == 0 ? line->threshold_error : 0.0;
     roots_start(p);
 }
 
@@ -305,20 +317,9 @@ static bool is_below(const Line *line, double low, double high)
     return sum * (1.0 + 0x1p-40) < line->threshold;
 }
 
-// Whether the polynomial has one sign on the whole of [-half, half]: its constant is more than all else.
-static bool has_one_sign(const Polynomial *p, double half)
-{
-    double rest = 0.0, error = 0.0;
-    for (unsigned i = p->degree + 1; i-- > 0;) {
-        rest = i > 0 ? (rest + fabs(p->terms[i])) * half : rest;
-        error = error * half + p->errors[i];
-    }
-    return fabs(p->terms[0]) > (rest + error) * (1.0 + 0x1p-40);
-}
-
 static unsigned piece_roots(const Line *line, Polynomial *p, double low, double high, double roots[], int *sign)
 {
-    unsigned count = roots_find(p, low, high, roots, sign);
+    unsigned count = low == -high ? roots_find_about(p, high, roots, sign) : roots_find(p, low, high, roots, sign);
     bool are_good = true, were_exact = p->is_exact;
     for (unsigned i = 0; i < count && !were_exact; i++) {
         if ((p->is_exact || !root_is_good(line, p, roots[i])) && !roots_refine(p, &roots[i])) {
@@ -352,12 +353,9 @@ static void take_piece(Line *line, double low, double high, bool inward, Found *
     line->base = begins ? 0.0 : 0.5 * (low + high);
     line->is_reduced = begins;
     line_polynomial(line, &p);
-    unsigned count = 0, passed = 0;
-    if (!begins && has_one_sign(&p, 0.5 * (high - low))) {
-        sign = p.terms[0] > 0.0 ? 1 : -1;
-    } else {
-        count = piece_roots(line, &p, low - line->base, high - line->base, roots, &sign);
-    }
+    double half = 0.5 * (high - low);
+    unsigned passed = 0;
+    unsigned count = piece_roots(line, &p, begins ? low : -half, begins ? high : half, roots, &sign);
     if (begins) {
         found->is_inside = starts_inside(&p, inward);
         passed = count > 0 && found->is_inside != (sign > 0) ? 1 : 0;
@@ -392,28 +390,26 @@ static double set_active(Line *line, double from, unsigned *next)
     return *next < line->count ? less_of(to, line->stretches[*next].from) : to;
 }
 
-// The field at t = 0, or the threshold such that a start there is on the surface.
-static void set_start(Line *line, SideLeft left, Found *found)
+// Whether the ray starts inside, or the threshold such that a start on the surface is on it.
+static void set_start(Line *line, Found *found)
 {
-    DoubleWord sum[DEGREE + 1];
-    if (left.side != SIDE_NONE) {
-        exact_sum(line, 0.0, sum);
-        line->exact_threshold = sum[0];
-        line->threshold = sum[0].hi;
-        return;
-    }
     Polynomial p;
     line->base = 0.0;
     line->is_reduced = false;
     line_polynomial(line, &p);
-    found->is_inside = line->active_count > 0 && roots_sign(&p, 0.0) > 0;
+    if (line->is_start) {
+        line->threshold_error = p.errors[0];
+        line->threshold += p.terms[0];
+    } else {
+        found->is_inside = line->active_count > 0 && roots_sign(&p, 0.0) > 0;
+    }
 }
 
 static void walk(Line *line, SideLeft left, Found *found)
 {
     unsigned next = 0;
     double at = 0.0, to = set_active(line, at, &next);
-    set_start(line, left, found);
+    set_start(line, found);
     if (line->is_start && line->active_count == 0) {
         return;
     }
@@ -439,8 +435,7 @@ unsigned blob_intervals(const double *list, bool is_first, const Ray *ray, SideL
     Line line = {.ray = ray,
                  .stretches = stretches,
                  .is_start = left.side != SIDE_NONE,
-                 .threshold = blob.threshold,
-                 .exact_threshold = {blob.threshold, 0.0}};
+                 .threshold = blob.threshold};
     find_stretches(&line, &blob);
     if (line.count == 0) {
         return 0;

@@ -22,6 +22,9 @@ typedef enum SolidTrait {
     SOLID_SIZED = 4,  // as in PrimitiveClass
 } SolidTrait;
 
+// How much worse roots of polynomials are than others, as a factor of TRANSFORM_ROUNDING: by 2^-44 of |o| + |t d|.
+#define POLYNOMIAL_ROUNDING 12.0
+
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
 // the origin.
 typedef struct Solid {
