@@ -292,11 +292,11 @@ static const SchemaProperty poly_arguments[] = {
 
 static const SchemaProperty blob_properties[] = {
     {"threshold", TYPE_NUMBER, AT(BlobDesc, threshold), .range = POSITIVE,
-     .doc = "the surface is where the fields of all components together are so strong"},
+     .doc = "how strong all fields together are on the surface"},
     {"sphere", TYPE_BLOCK, ACTION_BLOB_PART,
-     .doc = "`{ centre, radius, strength transforms }`: a field of strength × (1 - (distance / radius)²)²"},
+     .doc = "`{ centre, radius, strength transforms }`: strength × (1 - (distance / radius)²)²"},
     {"cylinder", TYPE_BLOCK, ACTION_BLOB_PART,
-     .doc = "`{ base, cap, radius, strength transforms }`: the same around a stretch, with round ends"},
+     .doc = "`{ base, cap, radius, strength transforms }`: the same around a stretch"},
     {"component", TYPE_ACTION, ACTION_BLOB_PART, .doc = "strength, radius, centre: an older form of `sphere`"},
     {"hierarchy", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: there is a tree of many components"},
     {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},

@@ -432,10 +432,7 @@ unsigned blob_intervals(const double *list, bool is_first, const Ray *ray, SideL
     Blob blob = blob_of(list);
     unsigned most = blob_interval_most(list);
     Stretch stretches[3 * blob.component_count];
-    Line line = {.ray = ray,
-                 .stretches = stretches,
-                 .is_start = left.side != SIDE_NONE,
-                 .threshold = blob.threshold};
+    Line line = {.ray = ray, .stretches = stretches, .is_start = left.side != SIDE_NONE, .threshold = blob.threshold};
     find_stretches(&line, &blob);
     if (line.count == 0) {
         return 0;
