@@ -243,20 +243,22 @@ static void add_square(double inner0, double inner1, double inner2, double stren
     sum[4] += strength * (inner2 * inner2);
 }
 
-// The field less the threshold by t - base. A number of a stretch is off by some u of its size, twice where it is
-// squared; what a term is made of is summed without signs.
+// The field less the threshold by t - base. Where a component has a field, 1 - d² is at most 1, and off by 50 u of its
+// size: its square by 100 u and some. What Horner's scheme adds is beside the terms themselves.
 static void line_polynomial(const Line *line, Polynomial *p)
 {
     double terms[DEGREE + 1] = {-line->threshold}, sizes[DEGREE + 1] = {fabs(line->threshold)};
-    double greatest = 1.0;
+    double beside[DEGREE + 1] = {fabs(line->threshold)}, greatest = 1.0, fixed = 0.0;
     for (unsigned k = 0; k < line->active_count; k++) {
         const Stretch *s = line->active[k];
         double from = line->base - s->middle, turn = -2.0 * s->square * from, fall = s->square * from * from;
         add_square(s->depth - fall, turn, -s->square, s->strength, terms);
+        add_square(fabs(s->depth - fall), fabs(turn), s->square, fabs(s->strength), beside);
         add_square(1.0 + fabs(s->depth) + fall, fabs(turn), s->square, fabs(s->strength), sizes);
+        fixed += fabs(s->strength) * s->size;
         greatest = greater_of(greatest, s->size);
     }
-    double rounding = (0x1p-47 + line->active_count * 0x1p-53) * greatest;
+    double rounding = (16.0 + line->active_count) * 0x1p-53;
     unsigned first = line->is_reduced;
     p->degree = DEGREE - first;
     p->refine = refine;
@@ -264,8 +266,9 @@ static void line_polynomial(const Line *line, Polynomial *p)
     for (unsigned i = 0; i <= p->degree; i++) {
         p->terms[i] = terms[i + first];
         p->sizes[i] = sizes[i + first] * (greatest * greatest);
-        p->errors[i] = rounding * sizes[i + first];
+        p->errors[i] = rounding * beside[i + first] + (first ? 0x1p-47 * greatest * sizes[i + first] : 0.0);
     }
+    p->errors[0] += first == 0 ? 0x1p-46 * fixed : 0.0;
     p->errors[0] += first == 0 ? line->threshold_error : 0.0;
     roots_start(p);
 }
@@ -277,6 +280,7 @@ typedef struct Found {
     RayInterval *intervals, open;
     unsigned count, most;
     bool is_inside;
+    bool is_first, is_over; // the first crossing is enough where doubles tell it; it is there
 } Found;
 
 static void cross(Found *found, double t)
@@ -363,7 +367,12 @@ static void take_piece(Line *line, double low, double high, bool inward, Found *
         cross(found, low);
     }
     for (unsigned i = passed; i < count && found->count < found->most; i++) {
-        cross(found, line->base + roots[i]);
+        double t = line->base + roots[i];
+        cross(found, t);
+        found->is_over = found->is_first && !p.is_exact && t > 0.0;
+        if (found->is_over) {
+            return;
+        }
     }
 }
 
@@ -413,7 +422,7 @@ static void walk(Line *line, SideLeft left, Found *found)
     if (line->is_start && line->active_count == 0) {
         return;
     }
-    while ((line->active_count > 0 || next < line->count) && found->count < found->most) {
+    while ((line->active_count > 0 || next < line->count) && found->count < found->most && !found->is_over) {
         if (line->active_count > 0) {
             take_piece(line, at, to, left.inward, found);
         } else if (found->is_inside) {
@@ -422,7 +431,11 @@ static void walk(Line *line, SideLeft left, Found *found)
         at = to;
         to = set_active(line, at, &next);
     }
-    if (found->is_inside && found->count < found->most) {
+    if (found->is_over && found->is_inside) {
+        found->open.leave = (double)INFINITY; // somewhere behind
+        found->open.leave_side = SIDE_NONE;
+        found->intervals[found->count++] = found->open;
+    } else if (found->is_inside && found->count < found->most) {
         cross(found, at);
     }
 }
@@ -439,7 +452,7 @@ unsigned blob_intervals(const double *list, bool is_first, const Ray *ray, SideL
     }
     const Stretch *active[line.count];
     line.active = active;
-    Found found = {.intervals = intervals, .open = INTERVAL_ALL, .most = is_first ? FIRST_FEW : most};
+    Found found = {.intervals = intervals, .open = INTERVAL_ALL, .most = is_first ? FIRST_FEW : most, .is_first = is_first};
     walk(&line, left, &found);
     return found.count;
 }

@@ -128,6 +128,11 @@ static void check(const double *list, const Family *family, const Ray *ray, Outc
         outcome->wrong += fabsl(field) > 1e-9L && is_inside != (field > 0.0L);
     }
     check_ends(list, ray, intervals, count, outcome);
+    RayInterval few[4];
+    unsigned few_count = blob_intervals(list, true, ray, LEFT_NONE, few);
+    outcome->wrong += (few_count == 0) != (count == 0) ||
+                      (count > 0 && (few[0].enter != intervals[0].enter ||
+                                     (isinf(few[0].enter) && few[0].leave != intervals[0].leave)));
     outcome->rays++;
 }
 
