@@ -33,7 +33,8 @@ typedef struct Stretch {
 
 typedef struct Line {
     const Ray *ray;
-    Stretch *stretches; // room for three of each component
+    Stretch *stretches;    // room for three of each component
+    const Stretch **order; // by where they begin
     unsigned count;
     bool is_start;
     double threshold, threshold_error; // of a ray that starts on the surface: the field there
@@ -103,35 +104,44 @@ static bool node_is_near(const BlobNode *node, const Ray *ray, const double inve
 {
     const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
     double in = 0.0, out = (double)INFINITY;
-    for (int axis = 0; axis < 3; axis++) {
+    for (int axis = 0; axis < 3; axis++) { // no number here is NaN
         double first = (node->low[axis] - margin - o[axis]) * inverse[axis];
         double second = (node->high[axis] + margin - o[axis]) * inverse[axis];
-        in = greater_of(in, less_of(first, second));
-        out = less_of(out, greater_of(first, second));
+        double near = first < second ? first : second, far = first < second ? second : first;
+        in = in > near ? in : near;
+        out = out < far ? out : far;
     }
     return in <= out * (1.0 + 0x1p-48);
 }
 
-static int stretch_order(const void *a, const void *b)
+static int stretch_order(const Stretch *x, const Stretch *y)
 {
-    const Stretch *x = a, *y = b;
     int by_place = (x->from > y->from) - (x->from < y->from);
     return by_place != 0 ? by_place : (x->component > y->component) - (x->component < y->component);
 }
 
+static int order_of(const void *a, const void *b)
+{
+    return stretch_order(*(const Stretch *const *)a, *(const Stretch *const *)b);
+}
+
 static void sort_stretches(Line *line)
 {
-    if (line->count > 24) {
-        qsort(line->stretches, line->count, sizeof *line->stretches, stretch_order);
+    enum { FEW = 48 };
+    for (unsigned i = 0; i < line->count; i++) {
+        line->order[i] = &line->stretches[i];
+    }
+    if (line->count > FEW) {
+        qsort(line->order, line->count, sizeof *line->order, order_of);
         return;
     }
     for (unsigned i = 1; i < line->count; i++) {
-        Stretch own = line->stretches[i];
+        const Stretch *own = line->order[i];
         unsigned at = i;
-        for (; at > 0 && stretch_order(&own, &line->stretches[at - 1]) < 0; at--) {
-            line->stretches[at] = line->stretches[at - 1];
+        for (; at > 0 && stretch_order(own, line->order[at - 1]) < 0; at--) {
+            line->order[at] = line->order[at - 1];
         }
-        line->stretches[at] = own;
+        line->order[at] = own;
     }
 }
 
@@ -160,7 +170,6 @@ static void find_stretches(Line *line, const Blob *blob)
             add_component(line, &blob->components[i]);
         }
     }
-    sort_stretches(line);
 }
 
 // ---- the polynomial between two ends of stretches
@@ -387,16 +396,16 @@ static double set_active(Line *line, double from, unsigned *next)
             line->active[kept++] = line->active[k];
         }
     }
-    for (; *next < line->count && line->stretches[*next].from <= from; ++*next) {
-        if (line->stretches[*next].to > from) {
-            line->active[kept++] = &line->stretches[*next];
+    for (; *next < line->count && line->order[*next]->from <= from; ++*next) {
+        if (line->order[*next]->to > from) {
+            line->active[kept++] = line->order[*next];
         }
     }
     line->active_count = kept;
     for (unsigned k = 0; k < kept; k++) {
         to = less_of(to, line->active[k]->to);
     }
-    return *next < line->count ? less_of(to, line->stretches[*next].from) : to;
+    return *next < line->count ? less_of(to, line->order[*next]->from) : to;
 }
 
 // Whether the ray starts inside, or the threshold such that a start on the surface is on it.
@@ -450,9 +459,12 @@ unsigned blob_intervals(const double *list, bool is_first, const Ray *ray, SideL
     if (line.count == 0) {
         return 0;
     }
-    const Stretch *active[line.count];
+    const Stretch *active[line.count], *order[line.count];
     line.active = active;
-    Found found = {.intervals = intervals, .open = INTERVAL_ALL, .most = is_first ? FIRST_FEW : most, .is_first = is_first};
+    line.order = order;
+    sort_stretches(&line);
+    Found found = {
+        .intervals = intervals, .open = INTERVAL_ALL, .most = is_first ? FIRST_FEW : most, .is_first = is_first};
     walk(&line, left, &found);
     return found.count;
 }
