@@ -11,11 +11,18 @@
 // POV-Ray's tolerance. Measured.
 static const double field_tolerance = 1e-6;
 
+// A ray keeps some 600 bytes for each on its stack.
+enum { COMPONENTS_MOST = 4000 };
+
 static bool add_member(Block *block, bool is_rod, const BlobPartDesc *part, Span span)
 {
     BlobDesc *blob = &block->record->blob;
     if (is_rod && vec3_equal(part->base, part->cap)) {
         return block_fault(block, DIAG_E0361, span, "the ends of a cylinder cannot be one point");
+    }
+    if (blob->count == COMPONENTS_MOST) {
+        return block_fault(block, DIAG_E0490, span, "a blob has at most %d components: make several of it",
+                           (int)COMPONENTS_MOST);
     }
     BlobMember *member = arena_alloc(block->arena, sizeof *member);
     if (!member) {
