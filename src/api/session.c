@@ -133,7 +133,8 @@ static void run_deep(void *client)
 rt_status session_run_deep(rt_session *session, rt_status (*work)(rt_session *session, void *argument), void *argument)
 {
     DeepWork deep = {session, work, argument, RT_OK};
-    if (!stack_run(STACK_BYTES_LEAST + scene_composite_stack(&session->scene), run_deep, &deep)) {
+    size_t least = STACK_BYTES_LEAST + scene_composite_stack(&session->scene);
+    if (least > STACK_BYTES || !stack_run(least, run_deep, &deep)) { // what is cut has too many crossings on a ray
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory for a stack of %d MiB", STACK_BYTES >> 20);
         return session_status(session, false);
     }

@@ -160,8 +160,8 @@ double blob_field(const double *list, Vec3 point)
     return sum;
 }
 
-// Of each component a line has three stretches at most; between two ends the field is of degree 4.
+// Between two places where components begin or end fields have few extrema; what would be beyond is far behind.
 uint32_t blob_interval_most(const double *list)
 {
-    return 15 * (uint32_t)list[1] + 3;
+    return 3 * (uint32_t)list[1] + 4;
 }

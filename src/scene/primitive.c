@@ -326,9 +326,10 @@ static void blob_dump(const Part *part, TextBuffer *out)
     }
 }
 
+// Alone it is asked for the first few only.
 static uint32_t blob_part_intervals(const Part *part)
 {
-    return blob_interval_most(part->list.items);
+    return part->node == NODE_NONE ? 4 : blob_interval_most(part->list.items);
 }
 
 // ---- prism and polygon

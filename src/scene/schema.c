@@ -276,7 +276,7 @@ static const SchemaProperty quadric_arguments[] = {
     {"constant", TYPE_NUMBER, AT(PolynomialDesc, constant), .doc = "J; the sum of all is 0 on the surface"},
 };
 
-#define COEFFICIENTS "by falling powers of x, then of y, then of z: x³, x²y, x²z, x², xy², …, 1 for order 3"
+#define COEFFICIENTS "by falling powers of x, then of y, then of z: x³, x²y, x²z, x², xy², …"
 
 static const SchemaProperty cubic_arguments[] = {
     {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
@@ -292,11 +292,11 @@ static const SchemaProperty poly_arguments[] = {
 
 static const SchemaProperty blob_properties[] = {
     {"threshold", TYPE_NUMBER, AT(BlobDesc, threshold), .range = POSITIVE,
-     .doc = "the surface is where the fields of all components together are so strong"},
+     .doc = "how strong all fields together are on the surface"},
     {"sphere", TYPE_BLOCK, ACTION_BLOB_PART,
-     .doc = "`{ centre, radius, strength transforms }`: a field of strength × (1 - (distance / radius)²)²"},
+     .doc = "`{ centre, radius, strength transforms }`: strength × (1 - (distance / radius)²)²"},
     {"cylinder", TYPE_BLOCK, ACTION_BLOB_PART,
-     .doc = "`{ base, cap, radius, strength transforms }`: the same around a stretch, with round ends"},
+     .doc = "`{ base, cap, radius, strength transforms }`: the same around a stretch"},
     {"component", TYPE_ACTION, ACTION_BLOB_PART, .doc = "strength, radius, centre: an older form of `sphere`"},
     {"hierarchy", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: there is a tree of many components"},
     {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
@@ -316,12 +316,13 @@ static const SchemaProperty blob_rod_arguments[] = {
 };
 
 static const BlobDesc blob_defaults = {.part = OBJECT_PART, .threshold = 1.0};
-static const BlobPartDesc blob_part_defaults = {.transform = IDENTITY, .strength = 1.0};
+static const BlobPartDesc blob_part_defaults = {.transform = IDENTITY, .radius = 1.0, .strength = 1.0};
 
 static const PolynomialDesc quadric_defaults = {.part = OBJECT_PART, .order = 2};
 static const PolynomialDesc cubic_defaults = {.part = OBJECT_PART, .order = 3};
 static const PolynomialDesc quartic_defaults = {.part = OBJECT_PART, .order = 4};
-static const PolynomialDesc poly_defaults = {.part = OBJECT_PART};
+static const PolynomialDesc poly_defaults = {.part = OBJECT_PART, .order = 2};
+
 static const SchemaProperty prism_properties[] = {
     {"open", TYPE_FLAG, AT(PrismDesc, is_open), .is_first = true, .doc = "without the faces at its ends"},
     {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
@@ -724,12 +725,14 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .doc = "Where the fields of balls and rods together are as strong as a threshold; inside where they are "
                           "stronger."},
     [KIND_BLOB_BALL] = {.word = "sphere",
+                        .inside = "blob",
                         .size = sizeof(BlobPartDesc),
                         .defaults = &blob_part_defaults,
                         .arguments = LIST(blob_ball_arguments),
                         .groups = {LIST(transforms)},
                         .doc = "A component of a blob."},
     [KIND_BLOB_ROD] = {.word = "cylinder",
+                       .inside = "blob",
                        .size = sizeof(BlobPartDesc),
                        .defaults = &blob_part_defaults,
                        .arguments = LIST(blob_rod_arguments),

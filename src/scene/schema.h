@@ -163,6 +163,7 @@ enum { SCHEMA_GROUPS = 3 };
 
 typedef struct SchemaBlock {
     const char *word;
+    const char *inside;   // the word of the block that it stands in, where another kind has its word; else NULL
     const char *what;     // messages call it, "a sphere"; NULL: it is never a value
     size_t size;          // of the description
     const void *defaults; // a description as it is before anything is said

@@ -145,7 +145,8 @@ static const char *append_takes(TextBuffer *out, const char *between, const char
 
 static void write_kind(TextBuffer *out, const SchemaBlock *kind)
 {
-    text_printf(out, "### %s\n\n%s", kind->word, kind->doc);
+    text_printf(out, "### %s%s%s\n\n%s", kind->word, kind->inside ? " in " : "", kind->inside ? kind->inside : "",
+                kind->doc);
     const char *between = "\n";
     for (size_t i = 0; i < SCHEMA_GROUPS; i++) {
         if (kind->groups[i].items == object_modifiers()->items) {

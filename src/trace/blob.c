@@ -15,10 +15,10 @@
 #include "scene/blob.h"
 #include "trace/roots.h"
 
-enum { FIRST_FEW = 4, NODES_DEEP = 64, DEGREE = 4 };
+enum { FIRST_FEW = 2, NODES_DEEP = 64, DEGREE = 4 };
 
 // A root is as good as the rest of a crossing if it is off by so many u of all that makes its place.
-static const double GOOD_ROOT = 0x1p-49;
+static const double GOOD_ROOT = 0x1p-44;
 
 typedef enum Section { SECTION_BALL, SECTION_ROD, SECTION_TOP } Section;
 
@@ -33,11 +33,11 @@ typedef struct Stretch {
 
 typedef struct Line {
     const Ray *ray;
-    Stretch *stretches; // room for three of each component
+    Stretch *stretches;    // room for three of each component
+    const Stretch **order; // by where they begin
     unsigned count;
     bool is_start;
-    double threshold;
-    DoubleWord exact_threshold;
+    double threshold, threshold_error; // of a ray that starts on the surface: the field there
     // Of the part of the line that is looked at: its middle or, where the ray starts in it on the surface, its start.
     double base;
     bool is_reduced; // its polynomial is divided by t
@@ -104,35 +104,44 @@ static bool node_is_near(const BlobNode *node, const Ray *ray, const double inve
 {
     const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
     double in = 0.0, out = (double)INFINITY;
-    for (int axis = 0; axis < 3; axis++) {
+    for (int axis = 0; axis < 3; axis++) { // no number here is NaN
         double first = (node->low[axis] - margin - o[axis]) * inverse[axis];
         double second = (node->high[axis] + margin - o[axis]) * inverse[axis];
-        in = greater_of(in, less_of(first, second));
-        out = less_of(out, greater_of(first, second));
+        double near = first < second ? first : second, far = first < second ? second : first;
+        in = in > near ? in : near;
+        out = out < far ? out : far;
     }
     return in <= out * (1.0 + 0x1p-48);
 }
 
-static int stretch_order(const void *a, const void *b)
+static int stretch_order(const Stretch *x, const Stretch *y)
 {
-    const Stretch *x = a, *y = b;
     int by_place = (x->from > y->from) - (x->from < y->from);
     return by_place != 0 ? by_place : (x->component > y->component) - (x->component < y->component);
 }
 
+static int order_of(const void *a, const void *b)
+{
+    return stretch_order(*(const Stretch *const *)a, *(const Stretch *const *)b);
+}
+
 static void sort_stretches(Line *line)
 {
-    if (line->count > 24) {
-        qsort(line->stretches, line->count, sizeof *line->stretches, stretch_order);
+    enum { FEW = 48 };
+    for (unsigned i = 0; i < line->count; i++) {
+        line->order[i] = &line->stretches[i];
+    }
+    if (line->count > FEW) {
+        qsort(line->order, line->count, sizeof *line->order, order_of);
         return;
     }
     for (unsigned i = 1; i < line->count; i++) {
-        Stretch own = line->stretches[i];
+        const Stretch *own = line->order[i];
         unsigned at = i;
-        for (; at > 0 && stretch_order(&own, &line->stretches[at - 1]) < 0; at--) {
-            line->stretches[at] = line->stretches[at - 1];
+        for (; at > 0 && stretch_order(own, line->order[at - 1]) < 0; at--) {
+            line->order[at] = line->order[at - 1];
         }
-        line->stretches[at] = own;
+        line->order[at] = own;
     }
 }
 
@@ -161,7 +170,6 @@ static void find_stretches(Line *line, const Blob *blob)
             add_component(line, &blob->components[i]);
         }
     }
-    sort_stretches(line);
 }
 
 // ---- the polynomial between two ends of stretches
@@ -194,30 +202,42 @@ static void exact_depth(const Stretch *stretch, const Ray *ray, double base, Dou
     }
 }
 
-static void exact_sum(const Line *line, double base, DoubleWord sum[DEGREE + 1])
+static void exact_add(const Stretch *stretch, const Ray *ray, double base, DoubleWord sum[DEGREE + 1])
 {
-    for (int i = 0; i <= DEGREE; i++) {
-        sum[i] = (DoubleWord){0.0, 0.0};
-    }
-    for (unsigned k = 0; k < line->active_count; k++) {
-        DoubleWord inner[3];
-        exact_depth(line->active[k], line->ray, base, inner);
-        for (int i = 0; i < 3; i++) {
-            for (int j = 0; j < 3; j++) {
-                DoubleWord term = double_word_scale(double_word_mul(inner[i], inner[j]), line->active[k]->strength);
-                sum[i + j] = double_word_add(sum[i + j], term);
-            }
+    DoubleWord inner[3];
+    exact_depth(stretch, ray, base, inner);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            DoubleWord term = double_word_scale(double_word_mul(inner[i], inner[j]), stretch->strength);
+            sum[i + j] = double_word_add(sum[i + j], term);
         }
     }
+}
+
+// The threshold, or the field where the ray starts.
+static DoubleWord exact_threshold(const Line *line)
+{
+    DoubleWord sum[DEGREE + 1] = {{0.0, 0.0}};
+    if (!line->is_start) {
+        return (DoubleWord){line->threshold, 0.0};
+    }
+    for (unsigned k = 0; k < line->count; k++) {
+        if (line->stretches[k].from <= 0.0) {
+            exact_add(&line->stretches[k], line->ray, 0.0, sum);
+        }
+    }
+    return sum[0];
 }
 
 // What the root finder asks for.
 static void refine(Polynomial *polynomial, const void *owner)
 {
     const Line *line = owner;
-    DoubleWord sum[DEGREE + 1];
-    exact_sum(line, line->base, sum);
-    sum[0] = double_word_sub(sum[0], line->exact_threshold);
+    DoubleWord sum[DEGREE + 1] = {{0.0, 0.0}};
+    for (unsigned k = 0; k < line->active_count; k++) {
+        exact_add(line->active[k], line->ray, line->base, sum);
+    }
+    sum[0] = double_word_sub(sum[0], exact_threshold(line));
     for (unsigned i = 0; i <= polynomial->degree; i++) {
         polynomial->exact[i] = sum[i + line->is_reduced];
     }
@@ -232,20 +252,22 @@ static void add_square(double inner0, double inner1, double inner2, double stren
     sum[4] += strength * (inner2 * inner2);
 }
 
-// The field less the threshold by t - base. A number of a stretch is off by some u of its size, twice where it is
-// squared; what a term is made of is summed without signs.
+// The field less the threshold by t - base. Where a component has a field, 1 - d² is at most 1, and off by 50 u of its
+// size: its square by 100 u and some. What Horner's scheme adds is beside the terms themselves.
 static void line_polynomial(const Line *line, Polynomial *p)
 {
     double terms[DEGREE + 1] = {-line->threshold}, sizes[DEGREE + 1] = {fabs(line->threshold)};
-    double greatest = 1.0;
+    double beside[DEGREE + 1] = {fabs(line->threshold)}, greatest = 1.0, fixed = 0.0;
     for (unsigned k = 0; k < line->active_count; k++) {
         const Stretch *s = line->active[k];
         double from = line->base - s->middle, turn = -2.0 * s->square * from, fall = s->square * from * from;
         add_square(s->depth - fall, turn, -s->square, s->strength, terms);
+        add_square(fabs(s->depth - fall), fabs(turn), s->square, fabs(s->strength), beside);
         add_square(1.0 + fabs(s->depth) + fall, fabs(turn), s->square, fabs(s->strength), sizes);
+        fixed += fabs(s->strength) * s->size;
         greatest = greater_of(greatest, s->size);
     }
-    double rounding = (0x1p-47 + line->active_count * 0x1p-53) * greatest;
+    double rounding = (16.0 + line->active_count) * 0x1p-53;
     unsigned first = line->is_reduced;
     p->degree = DEGREE - first;
     p->refine = refine;
@@ -253,8 +275,10 @@ static void line_polynomial(const Line *line, Polynomial *p)
     for (unsigned i = 0; i <= p->degree; i++) {
         p->terms[i] = terms[i + first];
         p->sizes[i] = sizes[i + first] * (greatest * greatest);
-        p->errors[i] = rounding * sizes[i + first];
+        p->errors[i] = rounding * beside[i + first] + (first ? 0x1p-47 * greatest * sizes[i + first] : 0.0);
     }
+    p->errors[0] += first == 0 ? 0x1p-46 * fixed : 0.0;
+    p->errors[0] += first == 0 ? line->threshold_error : 0.0;
     roots_start(p);
 }
 
@@ -265,6 +289,7 @@ typedef struct Found {
     RayInterval *intervals, open;
     unsigned count, most;
     bool is_inside;
+    bool is_first, is_over; // the first crossing is enough where doubles tell it; it is there
 } Found;
 
 static void cross(Found *found, double t)
@@ -305,20 +330,9 @@ static bool is_below(const Line *line, double low, double high)
     return sum * (1.0 + 0x1p-40) < line->threshold;
 }
 
-// Whether the polynomial has one sign on the whole of [-half, half]: its constant is more than all else.
-static bool has_one_sign(const Polynomial *p, double half)
-{
-    double rest = 0.0, error = 0.0;
-    for (unsigned i = p->degree + 1; i-- > 0;) {
-        rest = i > 0 ? (rest + fabs(p->terms[i])) * half : rest;
-        error = error * half + p->errors[i];
-    }
-    return fabs(p->terms[0]) > (rest + error) * (1.0 + 0x1p-40);
-}
-
 static unsigned piece_roots(const Line *line, Polynomial *p, double low, double high, double roots[], int *sign)
 {
-    unsigned count = roots_find(p, low, high, roots, sign);
+    unsigned count = low == -high ? roots_find_about(p, high, roots, sign) : roots_find(p, low, high, roots, sign);
     bool are_good = true, were_exact = p->is_exact;
     for (unsigned i = 0; i < count && !were_exact; i++) {
         if ((p->is_exact || !root_is_good(line, p, roots[i])) && !roots_refine(p, &roots[i])) {
@@ -352,12 +366,9 @@ static void take_piece(Line *line, double low, double high, bool inward, Found *
     line->base = begins ? 0.0 : 0.5 * (low + high);
     line->is_reduced = begins;
     line_polynomial(line, &p);
-    unsigned count = 0, passed = 0;
-    if (!begins && has_one_sign(&p, 0.5 * (high - low))) {
-        sign = p.terms[0] > 0.0 ? 1 : -1;
-    } else {
-        count = piece_roots(line, &p, low - line->base, high - line->base, roots, &sign);
-    }
+    double half = 0.5 * (high - low);
+    unsigned passed = 0;
+    unsigned count = piece_roots(line, &p, begins ? low : -half, begins ? high : half, roots, &sign);
     if (begins) {
         found->is_inside = starts_inside(&p, inward);
         passed = count > 0 && found->is_inside != (sign > 0) ? 1 : 0;
@@ -365,7 +376,12 @@ static void take_piece(Line *line, double low, double high, bool inward, Found *
         cross(found, low);
     }
     for (unsigned i = passed; i < count && found->count < found->most; i++) {
-        cross(found, line->base + roots[i]);
+        double t = line->base + roots[i];
+        cross(found, t);
+        found->is_over = found->is_first && !p.is_exact && t > 0.0;
+        if (found->is_over) {
+            return;
+        }
     }
 }
 
@@ -380,44 +396,42 @@ static double set_active(Line *line, double from, unsigned *next)
             line->active[kept++] = line->active[k];
         }
     }
-    for (; *next < line->count && line->stretches[*next].from <= from; ++*next) {
-        if (line->stretches[*next].to > from) {
-            line->active[kept++] = &line->stretches[*next];
+    for (; *next < line->count && line->order[*next]->from <= from; ++*next) {
+        if (line->order[*next]->to > from) {
+            line->active[kept++] = line->order[*next];
         }
     }
     line->active_count = kept;
     for (unsigned k = 0; k < kept; k++) {
         to = less_of(to, line->active[k]->to);
     }
-    return *next < line->count ? less_of(to, line->stretches[*next].from) : to;
+    return *next < line->count ? less_of(to, line->order[*next]->from) : to;
 }
 
-// The field at t = 0, or the threshold such that a start there is on the surface.
-static void set_start(Line *line, SideLeft left, Found *found)
+// Whether the ray starts inside, or the threshold such that a start on the surface is on it.
+static void set_start(Line *line, Found *found)
 {
-    DoubleWord sum[DEGREE + 1];
-    if (left.side != SIDE_NONE) {
-        exact_sum(line, 0.0, sum);
-        line->exact_threshold = sum[0];
-        line->threshold = sum[0].hi;
-        return;
-    }
     Polynomial p;
     line->base = 0.0;
     line->is_reduced = false;
     line_polynomial(line, &p);
-    found->is_inside = line->active_count > 0 && roots_sign(&p, 0.0) > 0;
+    if (line->is_start) {
+        line->threshold_error = p.errors[0];
+        line->threshold += p.terms[0];
+    } else {
+        found->is_inside = line->active_count > 0 && roots_sign(&p, 0.0) > 0;
+    }
 }
 
 static void walk(Line *line, SideLeft left, Found *found)
 {
     unsigned next = 0;
     double at = 0.0, to = set_active(line, at, &next);
-    set_start(line, left, found);
+    set_start(line, found);
     if (line->is_start && line->active_count == 0) {
         return;
     }
-    while ((line->active_count > 0 || next < line->count) && found->count < found->most) {
+    while ((line->active_count > 0 || next < line->count) && found->count < found->most && !found->is_over) {
         if (line->active_count > 0) {
             take_piece(line, at, to, left.inward, found);
         } else if (found->is_inside) {
@@ -426,7 +440,11 @@ static void walk(Line *line, SideLeft left, Found *found)
         at = to;
         to = set_active(line, at, &next);
     }
-    if (found->is_inside && found->count < found->most) {
+    if (found->is_over && found->is_inside) {
+        found->open.leave = (double)INFINITY; // somewhere behind
+        found->open.leave_side = SIDE_NONE;
+        found->intervals[found->count++] = found->open;
+    } else if (found->is_inside && found->count < found->most) {
         cross(found, at);
     }
 }
@@ -436,18 +454,17 @@ unsigned blob_intervals(const double *list, bool is_first, const Ray *ray, SideL
     Blob blob = blob_of(list);
     unsigned most = blob_interval_most(list);
     Stretch stretches[3 * blob.component_count];
-    Line line = {.ray = ray,
-                 .stretches = stretches,
-                 .is_start = left.side != SIDE_NONE,
-                 .threshold = blob.threshold,
-                 .exact_threshold = {blob.threshold, 0.0}};
+    Line line = {.ray = ray, .stretches = stretches, .is_start = left.side != SIDE_NONE, .threshold = blob.threshold};
     find_stretches(&line, &blob);
     if (line.count == 0) {
         return 0;
     }
-    const Stretch *active[line.count];
+    const Stretch *active[line.count], *order[line.count];
     line.active = active;
-    Found found = {.intervals = intervals, .open = INTERVAL_ALL, .most = is_first ? FIRST_FEW : most};
+    line.order = order;
+    sort_stretches(&line);
+    Found found = {
+        .intervals = intervals, .open = INTERVAL_ALL, .most = is_first ? FIRST_FEW : most, .is_first = is_first};
     walk(&line, left, &found);
     return found.count;
 }

@@ -16,7 +16,7 @@ enum { TERMS_MOST = POLYNOMIAL_ORDER_MOST + 1 };
 _Static_assert((int)POLYNOMIAL_ORDER_MOST <= (int)ROOTS_DEGREE_MOST, "the root finder has room");
 
 // A root is as good as the rest of a crossing if it is off by so many u of all that makes its place.
-static const double GOOD_ROOT = 0x1p-49;
+static const double GOOD_ROOT = 0x1p-44;
 
 typedef struct Line {
     const double *list;
@@ -29,7 +29,7 @@ typedef struct Line {
 // ---- the coefficients along a line
 
 // A polynomial of a degree, times b + d s, plus a number; a degree less than 0: it is 0.
-static int times_line(double *p, int degree, double b, double d)
+RT_ALWAYS_INLINE int times_line(double *p, int degree, double b, double d)
 {
     if (degree < 0) {
         return degree;
@@ -42,7 +42,7 @@ static int times_line(double *p, int degree, double b, double d)
     return degree + 1;
 }
 
-static int plus(double *p, int degree, const double *q, int q_degree)
+RT_ALWAYS_INLINE int plus(double *p, int degree, const double *q, int q_degree)
 {
     for (int i = 0; i <= q_degree; i++) {
         p[i] = i <= degree ? p[i] + q[i] : q[i];

@@ -13,9 +13,10 @@ static unsigned level_at(const Polynomial *p, unsigned level)
     return level * (p->degree + 1) - level * (level - 1) / 2;
 }
 
-static void set_levels(Polynomial *p, unsigned levels)
+static void set_levels(Polynomial *p)
 {
-    for (unsigned level = 1; level <= levels; level++) {
+    p->has_levels = true;
+    for (unsigned level = 1; level <= p->degree; level++) {
         const double *of = &p->terms[level_at(p, level - 1)];
         double *to = &p->terms[level_at(p, level)];
         for (unsigned i = 0; i + level <= p->degree; i++) {
@@ -80,7 +81,7 @@ static void make_exact(Polynomial *p)
         p->terms[i] = p->exact[i].hi;
         p->errors[i] = rounding * fabs(p->terms[i]) + ROOTS_EXACT_ERROR * p->sizes[i];
     }
-    set_levels(p, p->degree);
+    set_levels(p);
 }
 
 static int sign_of(double value)
@@ -123,7 +124,7 @@ void roots_start(Polynomial *p)
         }
         p->degree--;
     }
-    set_levels(p, p->degree);
+    p->has_levels = false; // those that there are may be of another degree
 }
 
 // Fujiwara's bound of all roots, as a power of two; those of derivatives lie within it, too (Gauss, Lucas).
@@ -192,23 +193,57 @@ static int sign_beyond(const Polynomial *p, unsigned level, bool is_low)
     return (p->terms[p->degree] > 0.0) != turns ? 1 : -1;
 }
 
+// The sign of a level, if it can be told without double words. A place of a derivative's where it cannot remains one
+// for the next level: what the derivative does so near to 0 changes the polynomial by less than its own error.
+static bool sign_is_known(Polynomial *p, unsigned level, double x, int *sign)
+{
+    if (level == 0 || p->is_exact) {
+        *sign = sign_at(p, level, x);
+        return true;
+    }
+    double value = value_at(p, level, x);
+    *sign = sign_of(value);
+    return fabs(value) > bound_at(p->errors, p->degree, level, x);
+}
+
 // The roots of a level, from places between which it has one at most.
 static unsigned level_roots(Polynomial *p, unsigned level, const Range *range, const double *places,
                             unsigned place_count, double *roots, int *first)
 {
     unsigned count = 0;
     double from = range->low;
-    int sign = range->is_low_infinite ? sign_beyond(p, level, true) : sign_at(p, level, from);
+    int sign = 0;
+    bool is_known = true;
+    if (range->is_low_infinite) {
+        sign = sign_beyond(p, level, true);
+    } else {
+        is_known = sign_is_known(p, level, from, &sign);
+    }
+    sign = is_known ? sign : 0;
     *first = sign;
     for (unsigned i = 0; i <= place_count; i++) {
         bool is_last = i == place_count;
         double to = is_last ? range->high : places[i];
-        int next = is_last && range->is_high_infinite ? sign_beyond(p, level, false) : sign_at(p, level, to);
+        int next;
+        is_known = true;
+        if (is_last && range->is_high_infinite) {
+            next = sign_beyond(p, level, false);
+        } else {
+            is_known = sign_is_known(p, level, to, &next);
+        }
+        if (!is_known) {
+            if (!is_last) {
+                roots[count++] = to;
+            }
+            sign = 0;
+            from = to;
+            continue;
+        }
         if (next == 0) {
             continue;
         }
         if (sign == 0) {
-            *first = next;
+            *first = *first == 0 ? next : *first;
         } else if (sign != next) {
             roots[count++] = root_between(p, level, from, to, sign);
         }
@@ -278,13 +313,66 @@ unsigned roots_find(Polynomial *p, double low, double high, double *roots, int *
         range.high = !range.is_high_infinite ? high : low > bound ? 2.0 * low : bound;
     }
     bool was_exact = p->is_exact;
+    if (!p->has_levels) {
+        set_levels(p);
+    }
     unsigned count = find_between(p, &range, roots, sign);
     return was_exact == p->is_exact ? count : find_between(p, &range, roots, sign);
+}
+
+// Bernstein's coefficients of a polynomial of degree 4 or less on [-half, half]: it lies between the least and the
+// greatest of them, and has no more roots than their signs change.
+static void bernstein(const Polynomial *p, double half, double b[5], double *error)
+{
+    double c[5] = {0.0}, power = 1.0;
+    *error = 0.0;
+    for (unsigned i = 0; i <= p->degree; i++) {
+        c[i] = p->terms[i] * power;
+        *error += p->errors[i] * power;
+        power *= half;
+    }
+    *error *= 1.0 + 0x1p-20;
+    double third = c[2] / 3.0, half_odd = 0.5 * (c[1] - c[3]);
+    b[0] = c[0] - c[1] + c[2] - c[3] + c[4];
+    b[1] = c[0] - half_odd - c[4];
+    b[2] = c[0] - third + c[4];
+    b[3] = c[0] + half_odd - c[4];
+    b[4] = c[0] + c[1] + c[2] + c[3] + c[4];
+}
+
+unsigned roots_find_about(Polynomial *p, double half, double *roots, int *sign)
+{
+    double b[5], error;
+    if (p->degree <= 4 && !p->is_exact) {
+        bernstein(p, half, b, &error);
+        unsigned changes = 0;
+        int last = fabs(b[0]) > error ? sign_of(b[0]) : 0;
+        bool is_known = last != 0 && fabs(b[4]) > error;
+        *sign = last;
+        for (unsigned i = 1; is_known && i < 5; i++) {
+            int own = fabs(b[i]) > error ? sign_of(b[i]) : 0;
+            bool may_be_either = own == 0 && sign_of(b[4]) != last; // then the next change counts
+            changes += own != 0 && own != last;
+            is_known = own != 0 || may_be_either;
+            last = own != 0 ? own : last;
+        }
+        if (is_known && changes == 0) {
+            return 0;
+        }
+        if (is_known && changes == 1) {
+            roots[0] = root_between(p, 0, -half, half, *sign);
+            return 1;
+        }
+    }
+    return roots_find(p, -half, half, roots, sign);
 }
 
 bool roots_refine(Polynomial *p, double *root)
 {
     make_exact(p);
+    if (!p->has_levels) {
+        set_levels(p);
+    }
     DoubleWord x = {*root, 0.0};
     for (int i = 0; i < REFINE_MOST; i++) {
         DoubleWord value = p->exact[p->degree];

@@ -31,6 +31,7 @@ struct Polynomial {
     // Fills in `exact`, once.
     void (*refine)(Polynomial *polynomial, const void *owner);
     const void *owner;
+    bool has_levels; // derivatives are in terms[]
     bool is_exact; // terms[] are the nearest to `exact` then
     DoubleWord exact[ROOTS_DEGREE_MOST + 1];
 };
@@ -44,6 +45,9 @@ int roots_sign(Polynomial *polynomial, double x);
 // Where the sign changes between two places, which may be infinite: how many, at most the degree; and what it is before
 // the first.
 unsigned roots_find(Polynomial *polynomial, double low, double high, double *roots, int *sign);
+
+// The same from -half to half, sooner where the degree is 4 or less.
+unsigned roots_find_about(Polynomial *polynomial, double half, double *roots, int *sign);
 
 // The same by double words throughout, which costs some ten times as much.
 unsigned roots_find_exact(Polynomial *polynomial, double low, double high, double *roots, int *sign);

@@ -55,6 +55,9 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
         }
     }
     solid_measure(&solid);
+    if (part->kind == PART_POLYNOMIAL || part->kind == PART_BLOB) {
+        solid.columns = vec3_scale(POLYNOMIAL_ROUNDING, solid.columns); // their roots are known to so much less
+    }
     return solid;
 }
 

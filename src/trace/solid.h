@@ -33,6 +33,8 @@ typedef struct SolidMesh {
     uint32_t first_face;            // the number of its first one, as a ShapeId has it
     uint32_t cursor;                // in a composite: its place among the meshes
 } SolidMesh;
+// How much worse roots of polynomials are than others, as a factor of TRANSFORM_ROUNDING: by 2^-44 of |o| + |t d|.
+#define POLYNOMIAL_ROUNDING 12.0
 
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
 // the origin.

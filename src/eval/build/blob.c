@@ -11,11 +11,18 @@
 // POV-Ray's tolerance. Measured.
 static const double field_tolerance = 1e-6;
 
+// A ray keeps some 600 bytes for each on its stack.
+enum { COMPONENTS_MOST = 4000 };
+
 static bool add_member(Block *block, bool is_rod, const BlobPartDesc *part, Span span)
 {
     BlobDesc *blob = &block->record->blob;
     if (is_rod && vec3_equal(part->base, part->cap)) {
         return block_fault(block, DIAG_E0361, span, "the ends of a cylinder cannot be one point");
+    }
+    if (blob->count == COMPONENTS_MOST) {
+        return block_fault(block, DIAG_E0490, span, "a blob has at most %d components: make several of it",
+                           (int)COMPONENTS_MOST);
     }
     BlobMember *member = arena_alloc(block->arena, sizeof *member);
     if (!member) {
@@ -118,7 +125,7 @@ static void box_join(OwnBox *own, Vec3 middle, double half)
     own->high = vec3_greatest(own->high, vec3_add(middle, reach));
 }
 
-// A ball's box is a cube as large as its map may stretch a coordinate; a rod's is made of those of its ends and of a
+// A ball's box is its own, or, where it is stretched, a cube as large as its map may stretch a coordinate; a rod's is made of those of its ends and of a
 // ball around its middle. Those of a negative strength are left out. Measured.
 bool blob_box(const void *object, OwnBox *own)
 {
@@ -128,7 +135,9 @@ bool blob_box(const void *object, OwnBox *own)
     for (const BlobMember *member = blob->members; member; member = member->earlier) {
         const BlobComponent *component = &member->component;
         const double(*m)[3] = component->to_world;
-        double stretch = 0.0;
+        double stretch = 0.0, length = vec3_length(vec3(m[0][0], m[0][1], m[0][2])), factor;
+        Transform map;
+        memcpy(map.m, m, sizeof map.m);
         for (int axis = 0; axis < 3; axis++) {
             stretch = fmax(stretch, fabs(m[0][axis]) + fabs(m[1][axis]) + fabs(m[2][axis]));
         }
@@ -137,12 +146,11 @@ bool blob_box(const void *object, OwnBox *own)
             continue;
         }
         if (component->is_rod != 0.0) {
-            double length = vec3_length(vec3(m[0][0], m[0][1], m[0][2]));
             box_join(own, base, length);
             box_join(own, vec3_add(base, rise), length);
             box_join(own, vec3_add_scaled(base, 0.5, rise), stretch * hypot(1.0, 0.5 * component->height));
         } else {
-            box_join(own, base, stretch);
+            box_join(own, base, transform_is_similarity(&map, &factor) ? length : stretch);
         }
     }
     return false;
