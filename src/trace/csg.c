@@ -219,7 +219,7 @@ RT_ALWAYS_INLINE bool traversal_is_past(const CsgTraversal *p, uint32_t index, d
 }
 
 // Adds the ends of an interval that the ray crosses later; true when it starts inside of it.
-static bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterval *interval, double room, bool is_start,
+RT_ALWAYS_INLINE bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterval *interval, double room, bool is_start,
                                bool is_beside)
 {
     bool is_film = solid_is_film(traversal_solid(p, index), interval->leave_side);
@@ -297,7 +297,7 @@ static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
 }
 
 // Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later.
-static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
+RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
 {
     const Solid *solid = traversal_solid(p, index);
     bool is_start = is_own && table_part(p->table, start.shape) == p->csg->first_solid + index;
@@ -362,7 +362,7 @@ static bool crossing_shows(const CsgTraversal *p, const Crossing *c, bool is_aft
 }
 
 // Lets the crossings from `begin` to `end` happen, and offers the first of them that is seen. True when one was.
-static bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Foremost *first)
+RT_ALWAYS_INLINE bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Foremost *first)
 {
     for (uint32_t i = begin; i < end; i++) {
         Crossing *c = &p->crossings[i];
@@ -394,7 +394,7 @@ static bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Forem
 }
 
 // Puts all leaves into the states that they have where the ray starts.
-static void traversal_set_states(CsgTraversal *p)
+RT_ALWAYS_INLINE void traversal_set_states(CsgTraversal *p)
 {
     const CsgTree *csg = p->csg;
     for (uint32_t i = 0; i < csg->node_count; i++) {
@@ -438,13 +438,13 @@ static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
 }
 
 // Finds the crossings. Mostly it turns out on the way that nothing can be seen before the limit, whatever clips it.
-static void traversal_begin(CsgTraversal *p, RayStart start, double limit)
+RT_ALWAYS_INLINE void traversal_begin(CsgTraversal *p, RayStart start, double limit, bool has_meshes)
 {
     const CsgTree *csg = p->csg;
     bool is_own = starts_on_part(start) && table_part(p->table, start.shape) - csg->first_solid < csg->solid_count;
     for (uint32_t i = 0; i < csg->solid_count && !p->is_over; i++) {
         p->is_inside[i] = false;
-        if (RT_UNLIKELY(solid_is_mesh(traversal_solid(p, i)))) {
+        if (has_meshes && solid_is_mesh(traversal_solid(p, i))) {
             traversal_mesh_begin(p, i);
         } else if (solid_is_flat(traversal_solid(p, i))) {
             traversal_flat(p, i, start);
@@ -579,17 +579,15 @@ static bool traversal_refill(CsgTraversal *p, uint32_t *begin, uint32_t *end)
     return true;
 }
 
-void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
-                 double enter, Foremost *first)
+// Written once, for composites with meshes and for others.
+RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start,
+                              double start_error, double enter, bool has_meshes, Foremost *first)
 {
-    if (csg->hidden & start.use) {
-        return;
-    }
     uint32_t inside[csg->node_count];
     bool is_inside[csg->solid_count];
     Crossing crossings[csg->crossing_count];
     Ray objects[csg->solid_count];
-    MeshCursor cursors[csg->mesh_count > 0 ? csg->mesh_count : 1];
+    MeshCursor cursors[has_meshes ? csg->mesh_count : 1];
     CsgTraversal p = {.table = table,
                       .csg = csg,
                       .ray = ray,
@@ -606,7 +604,7 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
                       .crossings = crossings,
                       .cursors = cursors,
                       .decided_until = (double)INFINITY};
-    traversal_begin(&p, start, first->limit);
+    traversal_begin(&p, start, first->limit, has_meshes);
     if (p.is_over) {
         return;
     }
@@ -619,13 +617,33 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
         Crossing earliest = crossings[begin];
-        bool has_room = traversal_refill(&p, &begin, &end);
+        bool has_room = !has_meshes || traversal_refill(&p, &begin, &end);
         while (has_room && p.count > 0 && !crossing_is_apart(&p, &earliest, &crossings[0])) {
             begin = heap_pop(&p);
-            has_room = traversal_refill(&p, &begin, &end);
+            has_room = !has_meshes || traversal_refill(&p, &begin, &end);
         }
         if (traversal_cross(&p, begin, end, first)) {
             return;
         }
+    }
+}
+
+static __attribute__((noinline)) void closest_of_meshes(const ShapeTable *table, const CsgTree *csg, const Ray *ray,
+                                                        RayStart start, double start_error, double enter,
+                                                        Foremost *first)
+{
+    closest(table, csg, ray, start, start_error, enter, true, first);
+}
+
+void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
+                 double enter, Foremost *first)
+{
+    if (csg->hidden & start.use) {
+        return;
+    }
+    if (RT_UNLIKELY(csg->mesh_count > 0)) {
+        closest_of_meshes(table, csg, ray, start, start_error, enter, first);
+    } else {
+        closest(table, csg, ray, start, start_error, enter, false, first);
     }
 }
