@@ -247,6 +247,18 @@ static bool face_is_past(const CsgTraversal *p, uint32_t index, double t, uint32
             !(t > mesh_crossing_error(solid, p->ray, &p->objects[index], t, face) + p->start_error));
 }
 
+// A mesh of a traversal, for mesh_count.
+typedef struct TraversalMesh {
+    const CsgTraversal *p;
+    uint32_t index;
+} TraversalMesh;
+
+static bool mesh_is_past(const void *client, double t, uint32_t face)
+{
+    const TraversalMesh *mesh = client;
+    return face_is_past(mesh->p, mesh->index, t, face);
+}
+
 // The next crossing behind the cursor that the ray has not passed. False: there is none.
 static bool traversal_find_face(CsgTraversal *p, uint32_t index, double *t)
 {
@@ -282,16 +294,10 @@ static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
 {
     const Solid *solid = traversal_solid(p, index);
     MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
-    bool is_inside = false;
-    double t;
     p->objects[index] = solid_ray(solid, p->ray);
     *cursor = (MeshCursor){.face = MESH_NO_FACE};
     mesh_query_make(&cursor->query, &p->objects[index]);
-    while (!solid_is_flat(solid) && traversal_find_face(p, index, &t)) {
-        is_inside = !is_inside;
-    }
-    cursor->t = 0.0;
-    cursor->face = MESH_NO_FACE;
+    bool is_inside = !solid_is_flat(solid) && mesh_count(solid, cursor, mesh_is_past, &(TraversalMesh){p, index}) % 2 == 1;
     cursor->is_inside = p->is_inside[index] = is_inside;
     traversal_next_face(p, index);
 }

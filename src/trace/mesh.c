@@ -151,6 +151,28 @@ bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t)
     return true;
 }
 
+uint32_t mesh_count(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client)
+{
+    const MeshTable *table = solid->mesh.table;
+    const MeshQuery *query = &cursor->query;
+    BvhWalk walk;
+    BvhChild leaf;
+    uint32_t count = 0;
+    if (!bvh_walk_start(&walk, &table->tree, query->ray.origin, query->ray.direction)) {
+        return 0;
+    }
+    while (bvh_walk_next(&walk, bvh_walk_limit(&walk, (double)INFINITY), &leaf)) {
+        uint32_t first = bvh_leaf_first(leaf), end = first + bvh_leaf_count(leaf);
+        for (uint32_t i = first; i < end; i++) {
+            MeshPoint at;
+            uint32_t own = table->faces[i];
+            count += mesh_ray_crosses(&query->shear, table->mesh, own, &at) &&
+                     is_behind(at.t, own, cursor->t, cursor->face) && !is_past(client, at.t / query->length, own);
+        }
+    }
+    return count;
+}
+
 bool mesh_is_crossed(const Solid *solid, const Ray *object)
 {
     MeshCursor cursor = {.face = MESH_NO_FACE};
