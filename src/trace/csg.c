@@ -221,7 +221,7 @@ RT_ALWAYS_INLINE bool traversal_is_past(const CsgTraversal *p, uint32_t index, d
 }
 
 // Adds the ends of an interval that the ray crosses later; true when it starts inside of it.
-static bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterval *interval, double room, bool is_start,
+RT_ALWAYS_INLINE bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterval *interval, double room, bool is_start,
                                bool is_beside)
 {
     bool is_film = solid_is_film(traversal_solid(p, index), interval->leave_side);
@@ -247,6 +247,18 @@ static bool face_is_past(const CsgTraversal *p, uint32_t index, double t, uint32
     return is_left ||
            (starts_beside(p->table, p->start, solid) &&
             !(t > mesh_crossing_error(solid, p->ray, &p->objects[index], t, face) + p->start_error));
+}
+
+// A mesh of a traversal, for mesh_count.
+typedef struct TraversalMesh {
+    const CsgTraversal *p;
+    uint32_t index;
+} TraversalMesh;
+
+static bool mesh_is_past(const void *client, double t, uint32_t face)
+{
+    const TraversalMesh *mesh = client;
+    return face_is_past(mesh->p, mesh->index, t, face);
 }
 
 // The next crossing behind the cursor that the ray has not passed. False: there is none.
@@ -284,22 +296,16 @@ static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
 {
     const Solid *solid = traversal_solid(p, index);
     MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
-    bool is_inside = false;
-    double t;
     p->objects[index] = solid_ray(solid, p->ray);
     *cursor = (MeshCursor){.face = MESH_NO_FACE};
     mesh_query_make(&cursor->query, &p->objects[index]);
-    while (!solid_is_flat(solid) && traversal_find_face(p, index, &t)) {
-        is_inside = !is_inside;
-    }
-    cursor->t = 0.0;
-    cursor->face = MESH_NO_FACE;
+    bool is_inside = !solid_is_flat(solid) && mesh_count(solid, cursor, mesh_is_past, &(TraversalMesh){p, index}) % 2 == 1;
     cursor->is_inside = p->is_inside[index] = is_inside;
     traversal_next_face(p, index);
 }
 
 // Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later.
-static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
+RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
 {
     const Solid *solid = traversal_solid(p, index);
     bool is_start = is_own && table_part(p->table, start.shape) == p->csg->first_solid + index;
@@ -364,7 +370,7 @@ static bool crossing_shows(const CsgTraversal *p, const Crossing *c, bool is_aft
 }
 
 // Lets the crossings from `begin` to `end` happen, and offers the first of them that is seen. True when one was.
-static bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Foremost *first)
+RT_ALWAYS_INLINE bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Foremost *first)
 {
     for (uint32_t i = begin; i < end; i++) {
         Crossing *c = &p->crossings[i];
@@ -406,7 +412,7 @@ static void traversal_set_state(CsgTraversal *p, uint32_t index)
 
 // Puts all leaves into the states that they have where the ray starts, but for those in a tree, which have theirs when
 // they are asked: nobody looks at the others.
-static void traversal_set_states(CsgTraversal *p)
+RT_ALWAYS_INLINE void traversal_set_states(CsgTraversal *p)
 {
     const CsgTree *csg = p->csg;
     for (uint32_t i = 0; i < csg->node_count; i++) {
@@ -448,12 +454,12 @@ static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
     return t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
 }
 
-static void traversal_ask(CsgTraversal *p, uint32_t index, RayStart start)
+RT_ALWAYS_INLINE void traversal_ask(CsgTraversal *p, uint32_t index, RayStart start, bool has_meshes)
 {
     const CsgTree *csg = p->csg;
     bool is_own = starts_on_part(start) && table_part(p->table, start.shape) - csg->first_solid < csg->solid_count;
     p->is_inside[index] = false;
-    if (RT_UNLIKELY(solid_is_mesh(traversal_solid(p, index)))) {
+    if (has_meshes && solid_is_mesh(traversal_solid(p, index))) {
         traversal_mesh_begin(p, index);
     } else if (solid_is_flat(traversal_solid(p, index))) {
         traversal_flat(p, index, start);
@@ -469,10 +475,10 @@ static void traversal_judge_seen(CsgTraversal *p, double limit)
 }
 
 // Finds the crossings.
-static void traversal_begin(CsgTraversal *p, RayStart start, double limit)
+RT_ALWAYS_INLINE void traversal_begin(CsgTraversal *p, RayStart start, double limit, bool has_meshes)
 {
     for (uint32_t i = 0; i < p->csg->solid_count && !p->is_over; i++) {
-        traversal_ask(p, i, start);
+        traversal_ask(p, i, start, has_meshes);
         if (i + 1 == p->csg->seen_count) {
             traversal_judge_seen(p, limit);
         }
@@ -513,7 +519,7 @@ static void traversal_begin_loose(CsgTraversal *p, RayStart start, double limit)
 {
     const CsgParts *parts = p->csg->parts;
     for (uint32_t i = 0; i < parts->loose_count && !p->is_over; i++) {
-        traversal_ask(p, parts->loose[i], start);
+        traversal_ask(p, parts->loose[i], start, p->csg->mesh_count > 0);
     }
     if (!p->is_over && parts->are_leaves_unseen) {
         traversal_judge_seen(p, limit);
@@ -532,7 +538,7 @@ static void traversal_reach(CsgTraversal *p, RayStart start, double until)
     for (uint32_t word = 0; word < words; word++) {
         for (uint64_t rest = met[word] & ~p->met[word]; rest && !p->is_over; rest &= rest - 1) {
             uint32_t index = 64 * word + (uint32_t)__builtin_ctzll(rest);
-            traversal_ask(p, index, start);
+            traversal_ask(p, index, start, false); // no mesh is in the tree
             traversal_set_state(p, index);
         }
         p->met[word] |= met[word];
@@ -656,17 +662,15 @@ static bool traversal_refill(CsgTraversal *p, uint32_t *begin, uint32_t *end)
     return true;
 }
 
-void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
-                 double enter, Foremost *first)
+// Written once, for composites with meshes and for others.
+RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start,
+                              double start_error, double enter, bool has_meshes, Foremost *first)
 {
-    if (csg->hidden & start.use) {
-        return;
-    }
     uint32_t inside[csg->node_count];
     bool is_inside[csg->solid_count];
     Crossing crossings[csg->crossing_count];
     Ray objects[csg->solid_count];
-    MeshCursor cursors[csg->mesh_count > 0 ? csg->mesh_count : 1];
+    MeshCursor cursors[has_meshes ? csg->mesh_count : 1];
     CsgTraversal p = {.table = table,
                       .csg = csg,
                       .ray = ray,
@@ -686,7 +690,11 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
                       .decided_until = (double)INFINITY};
     uint64_t met[csg->parts ? csg_words(csg) : 1];
     p.met = met;
-    (csg->parts ? traversal_begin_loose : traversal_begin)(&p, start, first->limit);
+    if (csg->parts) {
+        traversal_begin_loose(&p, start, first->limit);
+    } else {
+        traversal_begin(&p, start, first->limit, has_meshes);
+    }
     if (p.is_over) {
         return;
     }
@@ -710,13 +718,33 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
         Crossing earliest = crossings[begin];
-        bool has_room = traversal_refill(&p, &begin, &end);
+        bool has_room = !has_meshes || traversal_refill(&p, &begin, &end);
         while (has_room && p.count > 0 && !crossing_is_apart(&p, &earliest, &crossings[0])) {
             begin = heap_pop(&p);
-            has_room = traversal_refill(&p, &begin, &end);
+            has_room = !has_meshes || traversal_refill(&p, &begin, &end);
         }
         if (traversal_cross(&p, begin, end, first)) {
             return;
         }
+    }
+}
+
+static __attribute__((noinline)) void closest_of_meshes(const ShapeTable *table, const CsgTree *csg, const Ray *ray,
+                                                        RayStart start, double start_error, double enter,
+                                                        Foremost *first)
+{
+    closest(table, csg, ray, start, start_error, enter, true, first);
+}
+
+void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
+                 double enter, Foremost *first)
+{
+    if (csg->hidden & start.use) {
+        return;
+    }
+    if (RT_UNLIKELY(csg->mesh_count > 0)) {
+        closest_of_meshes(table, csg, ray, start, start_error, enter, first);
+    } else {
+        closest(table, csg, ray, start, start_error, enter, false, first);
     }
 }

@@ -70,7 +70,9 @@ double mesh_crossing_error(const Solid *solid, const Ray *ray, const Ray *object
     return t == 0.0 || error < most ? error : most;
 }
 
-// On the side where the face is seen from, so to say: that of its own normal.
+// A face whose second and third normal are nearer than this to the first is flat: its normals do not count. Measured.
+static const double same_normals = 1e-5;
+
 static Vec3 face_normal(const Mesh *mesh, uint32_t face, const MeshPoint *at)
 {
     Vec3 own = mesh_face_normal(mesh, face);
@@ -78,14 +80,15 @@ static Vec3 face_normal(const Mesh *mesh, uint32_t face, const MeshPoint *at)
         return own;
     }
     const uint32_t *numbers = mesh->face_normals[face];
-    Vec3 n = vec3(0.0, 0.0, 0.0);
-    for (int i = 0; i < 3; i++) {
-        n = vec3_add_scaled(n, at->weights[i], mesh_vector(mesh->normals[numbers[i]]));
+    Vec3 first = mesh_vector(mesh->normals[numbers[0]]), n = vec3_scale(at->weights[0], first);
+    double apart = 0.0;
+    for (int i = 1; i < 3; i++) {
+        Vec3 other = mesh_vector(mesh->normals[numbers[i]]);
+        apart = greater_of(apart, vec3_length_squared(vec3_sub(other, first)));
+        n = vec3_add_scaled(n, at->weights[i], other);
     }
-    if (vec3_equal(n, vec3(0.0, 0.0, 0.0))) {
-        return own;
-    }
-    return vec3_dot(n, own) < 0.0 ? vec3_neg(n) : n;
+    bool is_flat = apart < same_normals * same_normals || vec3_equal(n, vec3(0.0, 0.0, 0.0));
+    return is_flat ? own : n;
 }
 
 void mesh_surface(const Solid *solid, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal)
@@ -146,6 +149,28 @@ bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t)
     cursor->face = found;
     *t = nearest / query->length;
     return true;
+}
+
+uint32_t mesh_count(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client)
+{
+    const MeshTable *table = solid->mesh.table;
+    const MeshQuery *query = &cursor->query;
+    BvhWalk walk;
+    BvhChild leaf;
+    uint32_t count = 0;
+    if (!bvh_walk_start(&walk, &table->tree, query->ray.origin, query->ray.direction)) {
+        return 0;
+    }
+    while (bvh_walk_next(&walk, bvh_walk_limit(&walk, (double)INFINITY), &leaf)) {
+        uint32_t first = bvh_leaf_first(leaf), end = first + bvh_leaf_count(leaf);
+        for (uint32_t i = first; i < end; i++) {
+            MeshPoint at;
+            uint32_t own = table->faces[i];
+            count += mesh_ray_crosses(&query->shear, table->mesh, own, &at) &&
+                     is_behind(at.t, own, cursor->t, cursor->face) && !is_past(client, at.t / query->length, own);
+        }
+    }
+    return count;
 }
 
 bool mesh_is_crossed(const Solid *solid, const Ray *object)

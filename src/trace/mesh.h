@@ -73,6 +73,10 @@ typedef struct MeshCursor {
 // Moves the cursor to the next crossing behind it, by t, then by number; t of the ray. False: there is none.
 bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t);
 
+// How many crossings there are behind the cursor, but those that have been passed.
+typedef bool (*MeshIsPast)(const void *client, double t, uint32_t face); // t of the ray
+uint32_t mesh_count(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client);
+
 // Whether a ray meets any face.
 bool mesh_is_crossed(const Solid *solid, const Ray *object);
 

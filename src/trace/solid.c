@@ -436,7 +436,7 @@ void solid_measure(Solid *solid)
 // terms that make the coordinate of p(t), and of those of its centre and its points, which are rounded, too. An entry
 // of the map's inverse that is 0, or alone in its column, has only its own rounding; others have that of the whole
 // column.
-static double normal_reach(const Solid *solid, Vec3 n, const Ray *ray, double t)
+RT_ALWAYS_INLINE double normal_reach(const Solid *solid, Vec3 n, const Ray *ray, double t)
 {
     Vec3 o = ray->origin, d = ray->direction, centre = solid->centre;
     const double terms[3] = {fabs(o.x) + fabs(centre.x) + fabs(t * d.x), fabs(o.y) + fabs(centre.y) + fabs(t * d.y),
@@ -461,19 +461,24 @@ static double normal_reach(const Solid *solid, Vec3 n, const Ray *ray, double t)
     return sum;
 }
 
+RT_ALWAYS_INLINE double plane_error(const Solid *solid, const Ray *ray, const Ray *object, double t, Vec3 n)
+{
+    double reach = normal_reach(solid, n, ray, t);
+    return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
+}
+
 double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side)
 {
     if (solid->kind == PART_PLANE) {
         PlaneShape plane = {solid->data[0], solid->data[1].x};
         return plane_crossing_error(&plane, *ray, t);
     }
-    return solid_plane_error(solid, ray, object, t, solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side));
+    return plane_error(solid, ray, object, t, solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side));
 }
 
 double solid_plane_error(const Solid *solid, const Ray *ray, const Ray *object, double t, Vec3 n)
 {
-    double reach = normal_reach(solid, n, ray, t);
-    return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
+    return plane_error(solid, ray, object, t, n);
 }
 
 // Each R of normal_reach is at most the sum of all terms, which is as long as `span`, and the map's spread. What both

@@ -649,6 +649,19 @@ static bool pass_over(Block *block)
     return false;
 }
 
+// Faces behind the last one with a texture have that of the mesh.
+static bool settle_face_textures(MeshReader *reader)
+{
+    Growing *textures = &reader->face_textures;
+    while (textures->count > 0 && textures->count < reader->faces.count) {
+        if (!grows(reader, textures, reader->faces.count)) {
+            return false;
+        }
+        ((uint32_t *)textures->items)[textures->count++] = 0;
+    }
+    return true;
+}
+
 // Numbers the textures anew: those that some face has alone, then those of corners.
 static bool settle_textures(MeshReader *reader, MeshDesc *desc)
 {
@@ -686,6 +699,7 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
 {
     Block *block = reader->block;
     Mesh *mesh = reader->mesh;
+    is_fine = is_fine && settle_face_textures(reader);
     mesh->vertices = trim(&reader->vertices);
     mesh->normals = trim(&reader->normals);
     mesh->faces = trim(&reader->faces);
@@ -696,19 +710,6 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
     mesh->source = block->node->span.begin;
     mesh->face_normals = reader->face_normals.items;
     is_fine = is_fine && settle_normals(reader);
-    if (is_fine && mesh->face_textures && reader->face_textures.count < reader->faces.count) {
-        is_fine = grow(reader, &reader->face_textures, reader->faces.count);
-        mesh->face_textures = reader->face_textures.items;
-        for (size_t i = reader->face_textures.count; is_fine && i < reader->faces.count; i++) {
-            if (i == reader->face_textures.room) {
-                is_fine = grow(reader, &reader->face_textures, reader->faces.count);
-                mesh->face_textures = reader->face_textures.items;
-            }
-            if (is_fine) {
-                mesh->face_textures[i] = 0;
-            }
-        }
-    }
     MeshDesc *desc = &block->record->mesh;
     is_fine = is_fine && (!mesh->face_textures || settle_textures(reader, desc));
     if (is_fine) {
