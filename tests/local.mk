@@ -56,6 +56,7 @@ unit_programs = \
   tests/unit/test_trace_csg \
   tests/unit/test_trace_shapes \
   tests/unit/test_torus \
+  tests/unit/test_prism \
   tests/unit/test_scene \
   tests/unit/test_schema \
   tests/unit/test_ast \
@@ -125,6 +126,8 @@ tests_unit_test_trace_shapes_LDADD = $(UNIT_TRACE)
 tests_unit_test_torus_SOURCES = %D%/unit/test_torus.c $(unit_headers)
 tests_unit_test_torus_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
 tests/unit/test_torus.$(OBJEXT): src/study/optional.h
+tests_unit_test_prism_SOURCES = %D%/unit/test_prism.c $(unit_headers)
+tests_unit_test_prism_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_tree_SOURCES = %D%/unit/test_trace_tree.c $(trace_headers)
 tests_unit_test_trace_tree_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_secondary_SOURCES = %D%/unit/test_trace_secondary.c $(trace_headers)
@@ -271,6 +274,7 @@ test_scripts = \
   %D%/system/check_memory.py \
   %D%/system/check_planes.py \
   %D%/system/check_confinement.py \
+  %D%/system/check_text.py \
   %D%/system/check_hostile.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \

@@ -38,13 +38,13 @@ syn keyword rtlangWord max_trace_level media_attenuation media_interaction merge
 syn keyword rtlangWord mortar no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator
 syn keyword rtlangWord normal normal_map number_of_waves object octaves offset omega once onion open orient
 syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
-syn keyword rtlangWord pigment_map planar plane png point_at poly_wave ppm premultiplied quick_color
-syn keyword rtlangWord quick_colour quilted radial radius ramp_wave reflection reflection_exponent refraction
-syn keyword rtlangWord right ripples rotate roughness scale scallop_wave shadowless sine_wave sky sky_sphere
-syn keyword rtlangWord slope_map smooth_triangle solid specular sphere spherical spiral1 split_union spotlight
-syn keyword rtlangWord spotted sturm texture texture_map tga tiff tightness torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
-syn keyword rtlangWord variance waves wood wrinkles
+syn keyword rtlangWord pigment_map planar plane png point_at poly_wave polygon ppm premultiplied prism
+syn keyword rtlangWord quick_color quick_colour quilted radial radius ramp_wave reflection reflection_exponent
+syn keyword rtlangWord refraction right ripples rotate roughness scale scallop_wave shadowless sine_wave sky
+syn keyword rtlangWord sky_sphere slope_map smooth_triangle solid specular sphere spherical spiral1
+syn keyword rtlangWord split_union spotlight spotted sturm text texture texture_map tga tiff tightness torus
+syn keyword rtlangWord transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union
+syn keyword rtlangWord up use_color use_colour variance waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

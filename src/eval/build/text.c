@@ -37,14 +37,38 @@ static bool read_string(Block *block, const char *what, Value *string, Span *spa
     return is_string;
 }
 
+// `internal` and a number: fonts that POV-Ray has within itself, and rtlang in the files that come with its include files.
+static bool read_internal(Block *block, TextHead *head)
+{
+    static const char *const names[] = {"povlogo.ttf", "timrom.ttf", "cyrvetic.ttf", "crystal.ttf"};
+    static const char *const endings[] = {NULL};
+    double number;
+    cursor_skip(&block->cursor);
+    const AstNode *item = cursor_peek(&block->cursor);
+    if (!item || !cursor_at_value(&block->cursor)) {
+        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
+                           "`internal` needs a number after it");
+    }
+    if (!cursor_number(&block->cursor, &number, &head->font_span)) {
+        return false;
+    }
+    bool is_one = number >= 1.0 && number < (double)RT_COUNT_OF(names);
+    head->path = file_find(block->ev, item, names[is_one ? (size_t)number : 0], FILE_FONT, endings);
+    cursor_take_comma(&block->cursor);
+    return head->path != NULL;
+}
+
 static bool read_font(Block *block, TextHead *head)
 {
     static const char *const endings[] = {".ttf", ".ttc", NULL};
     Value name;
+    if (cursor_at_word(&block->cursor, W_internal)) {
+        return read_internal(block, head);
+    }
     if (!cursor_at_word(&block->cursor, W_ttf)) {
         const AstNode *item = cursor_peek(&block->cursor);
         return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
-                           "`text` begins with `ttf` and the name of a font");
+                           "`text` begins with `ttf` and the name of a font, or `internal` and a number");
     }
     cursor_skip(&block->cursor);
     const AstNode *item = cursor_peek(&block->cursor);
