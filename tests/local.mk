@@ -404,8 +404,9 @@ update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 .PHONY: check-long
 check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
   tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
-  tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT)
+  tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT) tests/unit/test_prism$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
+	CHECK_LONG=1 tests/unit/test_prism$(EXEEXT)
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
 	tests/unit/test_range$(EXEEXT) 20000
 	tests/fuzz/fuzz_exponents$(EXEEXT) 10000

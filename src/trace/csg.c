@@ -41,6 +41,7 @@ typedef struct CsgTraversal {
     bool *is_inside;       // for each solid, PART_INVERSE minded; while crossings are found: if the ray starts inside
     Ray *objects;          // the ray in each solid's space, but for planes
     Crossing *crossings;   // a heap by t, then by number
+    RayInterval *intervals; // of the solid that is asked
     uint32_t count;
     bool is_over;          // nothing more of it can be seen
     double decided_from, decided_until; // where the ray is inside of all that decide, as far as it is known
@@ -226,7 +227,7 @@ static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart star
     bool is_start = is_own && part_index(start.shape) == p->csg->first_solid + index;
     bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
     bool inward = start.inward != solid->flips;
-    RayInterval intervals[solid->interval_most];
+    RayInterval *intervals = p->intervals;
     unsigned count = 0;
     const Ray *object = p->ray;
     if (solid->kind != PART_PLANE) {
@@ -481,6 +482,7 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
     uint32_t inside[csg->node_count];
     bool is_inside[csg->solid_count];
     Crossing crossings[csg->crossing_count];
+    RayInterval intervals[csg->interval_most];
     Ray objects[csg->solid_count];
     CsgTraversal p = {.table = table,
                       .csg = csg,
@@ -495,6 +497,7 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
                       .is_inside = is_inside,
                       .objects = objects,
                       .crossings = crossings,
+                      .intervals = intervals,
                       .decided_until = (double)INFINITY};
     traversal_begin(&p, start, first->limit);
     if (p.is_over) {

@@ -19,6 +19,7 @@ typedef enum SolidTrait {
     SOLID_FLAT = 1,   // it has no inside
     SOLID_CONVEX = 2, // a ray that leaves it outward does not meet it again; nor does one that leaves a flat one
     SOLID_SIZED = 4,  // as in PrimitiveClass
+    SOLID_TURNS = 8,  // as in SolidClass
 } SolidTrait;
 
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
