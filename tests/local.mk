@@ -59,6 +59,7 @@ unit_programs = \
   tests/unit/test_polynomial \
   tests/unit/test_mesh \
   tests/unit/test_blob \
+  tests/unit/test_prism \
   tests/unit/test_scene \
   tests/unit/test_schema \
   tests/unit/test_ast \
@@ -136,6 +137,8 @@ tests_unit_test_blob_LDADD = $(UNIT_TRACE)
 tests_unit_test_polynomial_SOURCES = %D%/unit/test_polynomial.c %D%/unit/roots_oracle.h $(unit_headers)
 tests_unit_test_polynomial_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
 tests/unit/test_polynomial.$(OBJEXT): src/study/optional.h
+tests_unit_test_prism_SOURCES = %D%/unit/test_prism.c $(unit_headers)
+tests_unit_test_prism_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_tree_SOURCES = %D%/unit/test_trace_tree.c $(trace_headers)
 tests_unit_test_trace_tree_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_secondary_SOURCES = %D%/unit/test_trace_secondary.c $(trace_headers)
@@ -284,6 +287,7 @@ test_scripts = \
   %D%/system/check_memory.py \
   %D%/system/check_planes.py \
   %D%/system/check_confinement.py \
+  %D%/system/check_text.py \
   %D%/system/check_hostile.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
@@ -418,7 +422,9 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
   tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
   tests/unit/test_mesh$(EXEEXT) tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT) \
   tests/unit/test_partial$(EXEEXT)
+  tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT) tests/unit/test_prism$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
+	CHECK_LONG=1 tests/unit/test_prism$(EXEEXT)
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
 	tests/unit/test_mesh$(EXEEXT) 1700000
 	tests/unit/test_range$(EXEEXT) 20000

@@ -27,8 +27,8 @@ typedef struct Font {
 typedef struct FontLetter {
     uint32_t index;
     double advance, bearing; // from its origin to the next letter's, and to its own left edge
-    Numbers outline; // with no piece: it is not seen
-    bool is_cut;     // it has more pieces than an outline may have
+    Numbers outline;         // with no piece: it is not seen
+    bool is_cut;             // it has more pieces than an outline may have
 } FontLetter;
 
 // A font of a file; why not, in one line of `why`.

@@ -158,8 +158,8 @@ static int conic_to(const FT_Vector *control, const FT_Vector *to, void *client)
 
 static int cubic_to(const FT_Vector *first, const FT_Vector *second, const FT_Vector *to, void *client)
 {
-    return draw_piece(client, unit_of(first->x), unit_of(first->y), unit_of(second->x), unit_of(second->y), unit_of(to->x),
-                      unit_of(to->y));
+    return draw_piece(client, unit_of(first->x), unit_of(first->y), unit_of(second->x), unit_of(second->y),
+                      unit_of(to->x), unit_of(to->y));
 }
 
 static bool font_draw(FontFace *font, FontPen pen, void *client)

@@ -1,4 +1,5 @@
-// Open addressing over hashes of the lists' bits, at most half full, as in scene/unique.c, whose records are of one size.
+// Open addressing over hashes of the lists' bits, at most half full, as in scene/unique.c, whose records are of one
+// size.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/numbers.h"

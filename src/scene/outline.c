@@ -1,7 +1,7 @@
-// A piece is asked by the values that the line's form has at its control points, which are the Bernstein coefficients of
-// the form along it: where all have one sign there is no root; else the piece is cut where the form has its extrema, and
-// each part on which it changes its sign has one root. Signs at the ends of pieces decide how many there are, so that the
-// number is even whatever rounding does in between.
+// A piece is asked by the values that the line's form has at its control points, which are the Bernstein coefficients
+// of the form along it: where all have one sign there is no root; else the piece is cut where the form has its extrema,
+// and each part on which it changes its sign has one root. Signs at the ends of pieces decide how many there are, so
+// that the number is even whatever rounding does in between.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/outline.h"
@@ -291,8 +291,8 @@ static double clamped(double s)
     return s > 0.0 ? s < 1.0 ? s : 1.0 : 0.0; // NaN: 0
 }
 
-// The parameter of the nearest point of a curved piece, where the point lies nearly on it: then a point of the piece that
-// has one coordinate with it is near.
+// The parameter of the nearest point of a curved piece, where the point lies nearly on it: then a point of the piece
+// that has one coordinate with it is near.
 static double curve_nearest(const Piece *piece, OutlinePoint p)
 {
     const double *q = piece->points;

@@ -1,9 +1,10 @@
 // Outlines: closed curves in a plane, pieces of straight lines or of cubic Bézier curves, as the list of a part.
 //
-// A list is what is said of all (OUTLINE_HEAD numbers), then one piece after the other: the box of its control points, its
-// degree, and the points, u and v of each; before each OUTLINE_GROUP of them stands the box of these. A piece of a curved outline may be straight. A curve ends where it began. What lies inside of an odd number of curves is inside. What crosses a curve at a
-// point that two pieces share crosses one of them: a point is on either side of a line, never on it, and which side that
-// is depends on line and point alone.
+// A list is what is said of all (OUTLINE_HEAD numbers), then one piece after the other: the box of its control points,
+// its degree, and the points, u and v of each; before each OUTLINE_GROUP of them stands the box of these. A piece of a
+// curved outline may be straight. A curve ends where it began. What lies inside of an odd number of curves is inside.
+// What crosses a curve at a point that two pieces share crosses one of them: a point is on either side of a line, never
+// on it, and which side that is depends on line and point alone.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_OUTLINE_H
@@ -15,8 +16,8 @@
 #include "scene/numbers.h"
 
 enum {
-    OUTLINE_DEGREE,      // 1 or 3
-    OUTLINE_CONIC,       // of a prism: 1 where it grows with the height
+    OUTLINE_DEGREE, // 1 or 3
+    OUTLINE_CONIC,  // of a prism: 1 where it grows with the height
     OUTLINE_HEAD,
     OUTLINE_PIECES_MOST = 10000,
 };
@@ -25,11 +26,11 @@ typedef struct OutlinePoint {
     double u, v;
 } OutlinePoint;
 
-enum { // of a piece
-    PIECE_LOW,                 // u and v
-    PIECE_HIGH = 2,            // likewise
-    PIECE_DEGREE = 4,          // 1 or that of the outline
-    PIECE_POINTS = 5,          // one more than the degree of the outline
+enum {                // of a piece
+    PIECE_LOW,        // u and v
+    PIECE_HIGH = 2,   // likewise
+    PIECE_DEGREE = 4, // 1 or that of the outline
+    PIECE_POINTS = 5, // one more than the degree of the outline
     OUTLINE_GROUP = 8,
     OUTLINE_BOX = 4,
     OUTLINE_PIECE_NUMBERS = 13 + OUTLINE_BOX, // at most, with all that stands before it
@@ -89,7 +90,11 @@ typedef struct OutlineLine {
     OutlinePoint low, high;
 } OutlineLine;
 
-#define OUTLINE_ALL {-(double)INFINITY, -(double)INFINITY}, {(double)INFINITY, (double)INFINITY}
+#define OUTLINE_ALL                                                                                                    \
+    {-(double)INFINITY, -(double)INFINITY},                                                                            \
+    {                                                                                                                  \
+        (double)INFINITY, (double)INFINITY                                                                             \
+    }
 
 // Where the line crosses it, in the order of pieces, but for pieces that are not in the box: of a whole line an even
 // number of points. *is_asked: some are.

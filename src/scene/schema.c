@@ -762,8 +762,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .is_object = true,
                    .is_declarable = true,
                    .groups = {OBJECT_GROUPS},
-                   .doc = "`ttf`, the name of a TrueType font, the string, how thick it is, and a vector that letters are "
-                          "moved apart by: a union of prisms."},
+                   .doc = "`ttf` and the name of a font, a string, how thick it is, how much farther apart letters stand: "
+                          "a union of prisms."},
     [KIND_TRIANGLE] = {.word = "triangle",
                        .what = "a triangle",
                        .size = sizeof(TriangleDesc),

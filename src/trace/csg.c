@@ -45,6 +45,7 @@ typedef struct CsgTraversal {
     bool *is_inside;       // for each solid, PART_INVERSE minded; while crossings are found: if the ray starts inside
     Ray *objects;          // the ray in each solid's space, but for planes
     Crossing *crossings;   // a heap by t, then by number
+    RayInterval *intervals; // of the solid that is asked
     uint32_t count;
     MeshCursor *cursors;   // of its meshes
     bool is_over;          // nothing more of it can be seen
@@ -311,7 +312,7 @@ RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, Ray
     bool is_start = is_own && table_part(p->table, start.shape) == p->csg->first_solid + index;
     bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
     bool inward = start.inward != solid->flips;
-    RayInterval intervals[solid->interval_most];
+    RayInterval *intervals = p->intervals;
     unsigned count = 0;
     const Ray *object = p->ray;
     if (solid->kind != PART_PLANE) {
@@ -669,6 +670,7 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
     uint32_t inside[csg->node_count];
     bool is_inside[csg->solid_count];
     Crossing crossings[csg->crossing_count];
+    RayInterval intervals[csg->interval_most];
     Ray objects[csg->solid_count];
     MeshCursor cursors[has_meshes ? csg->mesh_count : 1];
     CsgTraversal p = {.table = table,
@@ -685,6 +687,7 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
                       .is_inside = is_inside,
                       .objects = objects,
                       .crossings = crossings,
+                      .intervals = intervals,
                       .cursors = cursors,
                       .reached = (double)INFINITY,
                       .decided_until = (double)INFINITY};

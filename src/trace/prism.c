@@ -2,7 +2,8 @@
 // crossing of the wall. Their number is even whatever rounding does, so what lies between them is inside by turns.
 //
 // In a prism that grows with the height a point is seen at <x, z> / y: the line's image is that of the plane through it
-// and the origin, both ends of the line are seen at one point, and where the height is 0 it is nowhere, which is outside.
+// and the origin, both ends of the line are seen at one point, and where the height is 0 it is nowhere, which is
+// outside.
 //
 // A ray that starts on the wall: how many crossings lie before it says whether its own is among them, which then is the
 // first.
@@ -67,14 +68,16 @@ static void cross_straight(const Numbers *outline, const Ray *ray, OutlinePoint 
     wall_take(ray, square, points, wall);
 }
 
-// The same of what lies between the ends alone: most of the outline is not asked then. False: the crossings there do not
-// fit to what is inside at both ends, as they may not where one of them is at an end but for rounding.
+// The same of what lies between the ends alone: most of the outline is not asked then. False: the crossings there do
+// not fit to what is inside at both ends, as they may not where one of them is at an end but for rounding.
 static bool cross_between(const Numbers *outline, const Ray *ray, const RayInterval *slab, OutlinePoint *points,
                           WallCrossings *wall)
 {
     Vec3 o = ray->origin, d = ray->direction, first = ray_at(*ray, slab->enter), last = ray_at(*ray, slab->leave);
     double square = d.x * d.x + d.z * d.z;
-    OutlineLine line = {-d.z, d.z * o.x - d.x * o.z, d.x,
+    OutlineLine line = {-d.z,
+                        d.z * o.x - d.x * o.z,
+                        d.x,
                         {less_of(first.x, last.x), less_of(first.z, last.z)},
                         {greater_of(first.x, last.x), greater_of(first.z, last.z)}};
     wall->is_inside = outline_holds(outline, (OutlinePoint){first.x, first.z});

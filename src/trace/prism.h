@@ -13,12 +13,13 @@
 
 enum { PRISM_WALL, PRISM_LOW, PRISM_HIGH };
 
-// The intervals of the line inside of the prism between its bounds, in order; as many as half of outline_crossings_most, and 2, at most.
+// The intervals of the line inside of the prism between its bounds, in order; as many as half of
+// outline_crossings_most, and 2, at most.
 unsigned prism_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray *ray, SideLeft left,
                          RayInterval *intervals);
 
-// A vector along the normal at a point of a side. Of a wall it may be turned in or out: which one depends on the way that
-// the outline takes.
+// A vector along the normal at a point of a side. Of a wall it may be turned in or out: which one depends on the way
+// that the outline takes.
 Vec3 prism_gradient(const Numbers *outline, Vec3 point, uint8_t side);
 
 // A point near the side, put onto it.

@@ -72,7 +72,7 @@ Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit)
     } else {
         solid_surface(solid, ray, hit->t, part_side(hit->shape), &surface.point, &surface.normal);
         bool leaves = hit->inside != solid->flips;
-        if (solid_classes[solid->kind].turns && (vec3_dot(surface.normal, ray->direction) > 0.0) != leaves) {
+        if ((solid->traits & SOLID_TURNS) && (vec3_dot(surface.normal, ray->direction) > 0.0) != leaves) {
             surface.normal = vec3_neg(surface.normal);
         }
     }

@@ -52,6 +52,7 @@ typedef struct CsgTree {
     uint32_t first_node, node_count;
     uint32_t first_solid, solid_count;
     uint32_t crossing_count; // of one ray, at most
+    uint32_t interval_most;  // of one of its solids
     uint8_t hidden;
     bool is_plain; // all of a few convex solids in one node
     uint32_t order;

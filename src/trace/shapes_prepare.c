@@ -41,6 +41,7 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
     };
     memcpy(solid.data, part->data, sizeof solid.data);
     solid.films = solid_classes[solid.kind].films;
+    solid.traits |= solid_classes[solid.kind].turns ? SOLID_TURNS : 0;
     if (part->kind == PART_PLANE) {
         solid.data[1].x = ldexp(part->data[1].x, -exponent);
         return solid;
@@ -152,6 +153,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
                      .first_solid = composite->first_part,
                      .solid_count = composite->part_count,
                      .hidden = composite->hidden,
+                     .interval_most = 1,
                      .order = composite->order};
     csg->is_plain = csg->node_count == 1 && csg->solid_count <= CSG_PLAIN_MOST &&
                     node_is_all(&table->nodes[csg->first_node]) && !table->nodes[csg->first_node].is_inverse;
@@ -160,6 +162,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
         solid->composite = index;
         csg->is_plain = csg->is_plain && solid_is_convex(solid) && !solid_is_flat(solid);
+        csg->interval_most = solid->interval_most > csg->interval_most ? solid->interval_most : csg->interval_most;
         csg->crossing_count += solid_is_mesh(solid)   ? MESH_CROSSINGS
                                : solid_is_flat(solid) ? 2
                                                       : 2 * solid->interval_most;

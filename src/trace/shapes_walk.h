@@ -293,7 +293,7 @@ static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t in
     }
 }
 
-static void convex_closest(ShapeQuery *q, uint32_t index, const Ray *object, SideLeft left, Foremost *first)
+RT_ALWAYS_INLINE void convex_closest(ShapeQuery *q, uint32_t index, const Ray *object, SideLeft left, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
     RayInterval interval;
@@ -398,7 +398,11 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
         flat_closest(q, index, &object, first);
     } else {
         SideLeft left = {is_start ? part_side(q->start.shape) : SIDE_NONE, inward};
-        (RT_LIKELY(solid_is_convex(solid)) ? convex_closest : several_closest)(q, index, &object, left, first);
+        if (RT_LIKELY(solid_is_convex(solid))) {
+            convex_closest(q, index, &object, left, first);
+        } else {
+            several_closest(q, index, &object, left, first);
+        }
     }
 }
 

@@ -21,6 +21,7 @@ typedef enum SolidTrait {
     SOLID_CONVEX = 2, // a ray that leaves it outward does not meet it again; nor does one that leaves a flat one
     SOLID_SIZED = 4,  // as in PrimitiveClass
     SOLID_MESH = 8,   // it is asked by trace/mesh.h
+    SOLID_TURNS = 16, // as in SolidClass
 } SolidTrait;
 
 typedef struct MeshTable MeshTable;

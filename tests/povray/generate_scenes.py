@@ -28,11 +28,18 @@ HEAD = {  # shapes without a closing brace, about 1 in size
     "disc": "disc { {point}, {axis}, {0.7~1}",
     "disc with a hole": "disc { {point}, {axis}, {0.8~1}, {0.2~0.5}",
     "torus": "torus { {0.5~0.7}, {0.15~0.3} sturm",
+    "prism": "prism { linear_spline {-0.8~-0.4}, {0.3~0.7}, 5, <-0.8, -0.6>, <{0.4~0.9}, -0.7>, <0.8, {0.3~0.8}>,"
+             " <{-0.6~-0.2}, 0.6>, <-0.8, -0.6>",
+    "conic prism": "prism { conic_sweep bezier_spline {0.2~0.4}, 1, 8, <-0.8, 0>, <-0.8, {-1.1~-0.6}>, <0.9, -1>, <0.7, 0.1>,"
+                   " <0.7, 0.1>, <{0.5~1}, 1>, <-0.9, {0.6~1}>, <-0.8, 0> translate -0.5*y",
+    "polygon": "polygon { 5, <-0.9, {-0.8~-0.4}, 0.13>, <{0.4~0.9}, -0.7, 0.13>, <0.8, {0.3~0.8}, 0.13>, <{-0.3~0.3}, 0, 0.13>,"
+               " <-0.7, {0.5~0.8}, 0.13>",
+    "text": "text { ttf \"timrom.ttf\" \"R&\" {0.3~0.7}, {0~0.2}*x translate <-0.7, -0.4, -0.3>",
     "triangle": "triangle { <{-1~-0.7}, {-0.7~-0.5}, 0>, <{0.7~1}, {-0.5~-0.2}, 0.3>, <{-0.3~0.3}, {0.7~1}, -0.2>",
     "smooth triangle": "smooth_triangle { <{-1~-0.7}, {-0.7~-0.5}, 0>, <-0.4, -0.2, -1>, <{0.7~1}, {-0.5~-0.2}, 0.3>,"
                        " <0.5, -0.1, -1>, <{-0.3~0.3}, {0.7~1}, -0.2>, <0, 0.6, -1>",
 }
-FLAT = {"disc", "disc with a hole", "triangle", "smooth triangle"}
+FLAT = {"disc", "disc with a hole", "polygon", "triangle", "smooth triangle"}
 
 COMBINED = {  # SHAPE is the head of a shape, BODY what is said of it
     "alone": "SHAPE BODY }",

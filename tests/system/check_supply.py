@@ -70,6 +70,8 @@ def test_parts():
         wanted["OpenImageIO"] = "OpenImageIO"
     if os.path.exists(os.path.join(BUILD, "rtlang_http.la")):
         wanted["libmicrohttpd"] = "libmicrohttpd"
+    if os.path.exists(os.path.join(BUILD, "rtlang_font.la")):
+        wanted["FreeType"] = "FreeType"
     tap.equal(set(parts), set(wanted), "the parts are the libraries that it links and loads")
     tap.ok(all(re.fullmatch(r"[0-9][\w.+-]*", number) for number in parts.values()), "with their versions", parts)
     references = {own["bom-ref"]} | {part["bom-ref"] for part in listed["components"]}
@@ -85,7 +87,7 @@ def main():
         tap.skip("how it is built", "no readelf here")
     else:
         names = ["rtlang", "rtcheck", ".libs/librtlang.so", ".libs/rtlang_jpeg.so", ".libs/rtlang_oiio.so",
-                 ".libs/rtlang_http.so"]
+                 ".libs/rtlang_http.so", ".libs/rtlang_font.so"]
         files = [os.path.join(BUILD, name) for name in names if os.path.exists(os.path.join(BUILD, name))]
         test_hardening(files)
         test_reproducible(files)

@@ -1,9 +1,9 @@
-// A ray against a prism, beside the same crossings in whole numbers or in numbers of more digits: outlines of straight and
-// of curved pieces that cross themselves, with corners on the line, lines along edges and through tips; and rays that
-// start on the wall. CHECK_LONG=1: a million rays of each kind.
+// A ray against a prism, beside the same crossings in whole numbers or in numbers of more digits: outlines of straight
+// and of curved pieces that cross themselves, with corners on the line, lines along edges and through tips; and rays
+// that start on the wall. CHECK_LONG=1: a million rays of each kind.
 //
-// Corners and rays of the straight ones are whole numbers times a power of two, so that on which side of a line a corner
-// lies is known exactly. Between two crossings of the oracle the prism must say inside where the oracle does.
+// Corners and rays of the straight ones are whole numbers times a power of two, so that on which side of a line a
+// corner lies is known exactly. Between two crossings of the oracle the prism must say inside where the oracle does.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/prism.h"
@@ -134,7 +134,8 @@ static Real crossing_t(const Ray *ray, bool is_conic, Real u, Real v)
         return ((u - ox) * dx + (v - oz) * dz) / (dx * dx + dz * dz);
     }
     Real by_x = dx - u * dy, by_z = dz - v * dy, from_x = u * oy - ox, from_z = v * oy - oz;
-    Real from2 = from_x * from_x + from_z * from_z, by2 = by_x * by_x + by_z * by_z, along = from_x * by_x + from_z * by_z;
+    Real from2 = from_x * from_x + from_z * from_z, by2 = by_x * by_x + by_z * by_z,
+         along = from_x * by_x + from_z * by_z;
     return by2 >= from2 ? along / by2 : from2 / along;
 }
 
@@ -216,8 +217,8 @@ static bool in_order(const RayInterval *intervals, unsigned count)
 // Whether the oracle knows where it is: the line is not through the tip, and is not parallel to it where the wall is.
 static bool is_known(const Outline *outline, const Ray *ray, const Crossings *exact)
 {
-    bool is_known = !outline_is_conic(&outline->list) ||
-                    !vec3_equal(vec3_cross(ray->origin, ray->direction), vec3(0.0, 0.0, 0.0));
+    bool is_known =
+        !outline_is_conic(&outline->list) || !vec3_equal(vec3_cross(ray->origin, ray->direction), vec3(0.0, 0.0, 0.0));
     for (int i = 0; i < exact->count; i++) {
         is_known = is_known && fabs((double)exact->t[i]) < 1e9;
     }
@@ -270,7 +271,8 @@ static void test_lines(const char *name, unsigned degree, bool is_conic, double 
         wrong += compare(&exact, &unscaled, low / scale, high / scale, intervals, count, -(double)INFINITY, &gaps);
     }
     tap_ok(gaps > rays && wrong == 0, "%s: inside where the oracle is (%d of %d gaps are not)", name, wrong, gaps);
-    tap_ok(odd == 0 && disordered == 0, "%s: an even number of crossings, in order (%d, %d are not)", name, odd, disordered);
+    tap_ok(odd == 0 && disordered == 0, "%s: an even number of crossings, in order (%d, %d are not)", name, odd,
+           disordered);
 }
 
 static bool is_at_corner(const Outline *outline, Vec3 on)

@@ -1,8 +1,8 @@
 // Prisms and polygons: words, numbers and points become an outline (scene/outline.h), in the way of POV-Ray's curves.
 //
-// A curve begins with the first point after another one is closed, and is closed by the first point that equals its own.
-// Of a quadratic curve a point stands before that, of a cubic one another behind the last: they say how steep it is
-// there. Points as near as CLOSED are equal, as in POV-Ray. Knows nothing of rays.
+// A curve begins with the first point after another one is closed, and is closed by the first point that equals its
+// own. Of a quadratic curve a point stands before that, of a cubic one another behind the last: they say how steep it
+// is there. Points as near as CLOSED are equal, as in POV-Ray. Knows nothing of rays.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -53,7 +53,8 @@ static void pen_piece(Pen *pen, Curve curve, const OutlinePoint *p, OutlinePoint
 {
     OutlinePoint piece[4] = {p[0], end}, bend;
     switch (curve) {
-    case CURVE_LINEAR: break;
+    case CURVE_LINEAR:
+        break;
     case CURVE_QUADRATIC: // (p2 - p0)/2 is its derivative at p1; as a cubic
         bend = moved(p[1], 0.25, p[2], p[0]);
         piece[0] = p[1];
@@ -77,8 +78,9 @@ static void pen_piece(Pen *pen, Curve curve, const OutlinePoint *p, OutlinePoint
 
 static bool not_closed(Block *block, Curve curve, Span span)
 {
-    return block_fault(block, DIAG_E0493, span, "a %s outline of the %s is not closed: its last point must equal its first",
-                       curves[curve].name, block_word(block));
+    return block_fault(block, DIAG_E0493, span,
+                       "a %s outline of the %s is not closed: its last point must equal its first", curves[curve].name,
+                       block_word(block));
 }
 
 // Straight pieces; the last outline is closed, with a warning, where it is not.
@@ -93,8 +95,8 @@ static bool draw_linear(Block *block, Pen *pen, const OutlinePoint *p, size_t co
         first = closes ? i + 1 : first;
         if (!closes && i + 1 == count && i > first) {
             pen_piece(pen, CURVE_LINEAR, p + i, p[first]);
-            eval_warn(block->ev, DIAG_W0492, span, "an outline of the %s is not closed: its first point is taken as its last",
-                      block_word(block));
+            eval_warn(block->ev, DIAG_W0492, span,
+                      "an outline of the %s is not closed: its first point is taken as its last", block_word(block));
         }
     }
     return first + 1 != count ||
@@ -143,8 +145,7 @@ static bool draw_spline(Block *block, Pen *pen, Curve curve, const OutlinePoint 
 static bool make_outline(Block *block, Curve curve, bool is_conic, const OutlinePoint *points, size_t count, Span span,
                          Numbers *outline)
 {
-    double *items =
-        arena_alloc_array(block->arena, OUTLINE_HEAD + OUTLINE_PIECE_NUMBERS * (count + 1), sizeof *items);
+    double *items = arena_alloc_array(block->arena, OUTLINE_HEAD + OUTLINE_PIECE_NUMBERS * (count + 1), sizeof *items);
     Pen pen = {items, 0};
     if (!items) {
         return eval_no_memory(block->ev, span);
@@ -212,7 +213,8 @@ static bool read_point(Block *block, OutlinePoint *point)
                            value_describe(&value));
     }
     return (isfinite(point->u) && isfinite(point->v)) ||
-           block_fault(block, DIAG_E0340, span, "a point of a %s has a coordinate that is not finite", block_word(block));
+           block_fault(block, DIAG_E0340, span, "a point of a %s has a coordinate that is not finite",
+                       block_word(block));
 }
 
 static bool read_height(Block *block, const char *what, double *height)
@@ -268,8 +270,9 @@ bool prism_body(Block *block)
         return false;
     }
     if (curve == CURVE_BEZIER && count % 4 != 0) {
-        return block_fault(block, DIAG_E0492, span, "a Bézier prism has four points for each piece, and %zu is no "
-                                                    "multiple of 4",
+        return block_fault(block, DIAG_E0492, span,
+                           "a Bézier prism has four points for each piece, and %zu is no "
+                           "multiple of 4",
                            count);
     }
     OutlinePoint *points = arena_alloc_array(block->arena, count, sizeof *points);
@@ -304,7 +307,8 @@ static Vec3 farthest(const Vec3 *p, size_t count, const Vec3 *axis)
     return found;
 }
 
-// Its own plane at z = 0; of one at right angles to z x and y are the scene's. A frame of nothing where all lie on a line.
+// Its own plane at z = 0; of one at right angles to z x and y are the scene's. A frame of nothing where all lie on a
+// line.
 static bool polygon_frame(Block *block, const Vec3 *p, size_t count, Span span, Transform *frame)
 {
     Vec3 farther = farthest(p, count, NULL), x = vector_unit(farther), y = vector_unit(farthest(p, count, &x));
@@ -331,8 +335,8 @@ static bool read_vector(Block *block, Vec3 *point)
 {
     Span span;
     return cursor_vector3(&block->cursor, point, &span) &&
-           (vec3_is_finite(*point) || block_fault(block, DIAG_E0340, span,
-                                                  "a point of a polygon has a coordinate that is not finite"));
+           (vec3_is_finite(*point) ||
+            block_fault(block, DIAG_E0340, span, "a point of a polygon has a coordinate that is not finite"));
 }
 
 bool polygon_body(Block *block)

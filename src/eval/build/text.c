@@ -1,8 +1,8 @@
 // Text: a font, a string, a thickness and an offset become a union of prisms, a letter each.
 //
-// As in POV-Ray letters stand side by side along x from 0 on, their outlines in x and y, and reach as far along z as the
-// text is thick; the first one's left edge is at 0; and all is turned by a thousandth of a degree about x, y
-// and z. Knows nothing of how fonts are read.
+// As in POV-Ray letters stand side by side along x from 0 on, their outlines in x and y, and reach as far along z as
+// the text is thick; the first one's left edge is at 0; and all is turned by a thousandth of a degree about x, y and z.
+// Knows nothing of how fonts are read.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -37,14 +37,39 @@ static bool read_string(Block *block, const char *what, Value *string, Span *spa
     return is_string;
 }
 
+// `internal` and a number: fonts that POV-Ray has within itself, and rtlang in the files that come with its include
+// files.
+static bool read_internal(Block *block, TextHead *head)
+{
+    static const char *const names[] = {"povlogo.ttf", "timrom.ttf", "cyrvetic.ttf", "crystal.ttf"};
+    static const char *const endings[] = {NULL};
+    double number;
+    cursor_skip(&block->cursor);
+    const AstNode *item = cursor_peek(&block->cursor);
+    if (!item || !cursor_at_value(&block->cursor)) {
+        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
+                           "`internal` needs a number after it");
+    }
+    if (!cursor_number(&block->cursor, &number, &head->font_span)) {
+        return false;
+    }
+    bool is_one = number >= 1.0 && number < (double)RT_COUNT_OF(names);
+    head->path = file_find(block->ev, item, names[is_one ? (size_t)number : 0], FILE_FONT, endings);
+    cursor_take_comma(&block->cursor);
+    return head->path != NULL;
+}
+
 static bool read_font(Block *block, TextHead *head)
 {
     static const char *const endings[] = {".ttf", ".ttc", NULL};
     Value name;
+    if (cursor_at_word(&block->cursor, W_internal)) {
+        return read_internal(block, head);
+    }
     if (!cursor_at_word(&block->cursor, W_ttf)) {
         const AstNode *item = cursor_peek(&block->cursor);
         return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
-                           "`text` begins with `ttf` and the name of a font");
+                           "`text` begins with `ttf` and the name of a font, or `internal` and a number");
     }
     cursor_skip(&block->cursor);
     const AstNode *item = cursor_peek(&block->cursor);
@@ -169,9 +194,12 @@ bool text_body(Block *block)
     case FONT_NO_MODULE:
         return block_fault(block, DIAG_E0516, block->node->span,
                            "text needs FreeType to read fonts, which this rtlang cannot use: %s", why);
-    case FONT_NONE: return block_fault(block, DIAG_E0515, head.font_span, "`%s` cannot be used as a font: %s", head.path, why);
-    case FONT_NO_MEMORY: return eval_no_memory(block->ev, block->node->span);
-    case FONT_OK: break;
+    case FONT_NONE:
+        return block_fault(block, DIAG_E0515, head.font_span, "`%s` cannot be used as a font: %s", head.path, why);
+    case FONT_NO_MEMORY:
+        return eval_no_memory(block->ev, block->node->span);
+    case FONT_OK:
+        break;
     }
     bool is_fine = add_letters(block, &head, &font, &end, &group->count);
     font_close(&font);
