@@ -32,7 +32,9 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
-    [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
+    [ACTION_SKY_LAYER] = sky_layer_action,     [ACTION_WARP] = warp_action,
+    [ACTION_WARP_TYPE] = warp_type_action,    [ACTION_FUNCTION] = pattern_function_action,
+    [ACTION_IRID] = finish_irid_action,       [ACTION_CYLINDER] = camera_cylinder_action,
     [ACTION_CHARSET] = settings_charset_action,
     [ACTION_NOISE_GENERATOR] = settings_generator_action,
     [ACTION_AREA_LIGHT] = light_area_action,     [ACTION_SHADOWLESS] = light_shadowless_action,
@@ -57,7 +59,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_CAMERA] = camera_close,       [KIND_UNION] = union_close,
     [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
-    [KIND_PATTERN] = pattern_close,
+    [KIND_PATTERN] = pattern_close, [KIND_WARP] = warp_close,
     [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
     [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close, [KIND_NORMAL] = normal_close,
     [KIND_IMAGE_MAP] = image_close, [KIND_LIGHT_SOURCE] = light_close,
@@ -96,6 +98,7 @@ void block_defaults(const Eval *ev, SchemaKind kind, Desc *record)
         record->settings.max_trace_level = settings->max_trace_level;
         record->settings.noise_generator = settings->noise_generator;
         record->settings.number_of_waves = settings->number_of_waves;
+        record->settings.irid_wavelength = settings->irid_wavelength;
         break;
     default: break;
     }
@@ -310,10 +313,12 @@ static bool is_declared(const Eval *ev, const AstNode *name)
 
 static const SchemaProperty *find_property(const Block *block, const AstNode *item)
 {
-    if ((item->kind != AST_WORD && item->kind != AST_BLOCK) || item->symbol >= WORD_COUNT) {
+    Symbol word = item->kind == AST_FUNCTION ? (Symbol)W_function : item->symbol;
+    bool is_word = item->kind == AST_WORD || item->kind == AST_BLOCK || item->kind == AST_FUNCTION;
+    if (!is_word || word >= WORD_COUNT) {
         return NULL;
     }
-    unsigned place = block->ev->objects->properties[block->kind][item->symbol];
+    unsigned place = block->ev->objects->properties[block->kind][word];
     return place ? schema_property(block->kind, place - 1) : NULL;
 }
 

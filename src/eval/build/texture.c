@@ -328,6 +328,19 @@ bool reflection_action(Block *block, const SchemaProperty *property, const AstNo
     return true;
 }
 
+bool finish_irid_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    Desc record;
+    SchemaKind is;
+    (void)property;
+    record.finish = block->record->finish;
+    if (!block_read(block->ev, item, KIND_IRID, block->arena, &record, &is)) {
+        return false;
+    }
+    block->record->finish.finish = record.finish.finish;
+    return true;
+}
+
 bool reflection_close(Block *block)
 {
     Finish *finish = &block->record->finish.finish;
