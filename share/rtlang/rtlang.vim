@@ -25,26 +25,28 @@ syn keyword rtlangConstant array clock clock_on false function no now off on pi 
 syn keyword rtlangColour alpha blue color colour filter gray green red rgb rgbf rgbft rgbt srgb srgbf srgbft
 syn keyword rtlangColour srgbt transmit
 syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo ambient ambient_light angle
-syn keyword rtlangWord aperture area_light assumed_gamma average background blur_samples bounded_by box boxed
-syn keyword rtlangWord bozo brick brick_size brilliance bump_size bumps camera caustics cells charset checker
-syn keyword rtlangWord circular clipped_by color_map colour_map cone confidence conserve_energy control0
-syn keyword rtlangWord control1 crackle cubic_wave cylinder cylindrical dents difference diffuse direction
-syn keyword rtlangWord disc distance emission exponent exr fade_color fade_colour fade_distance fade_power
-syn keyword rtlangWord falloff finish fisheye focal_point fog fog_alt fog_offset fog_type form frequency
-syn keyword rtlangWord fresnel gamma global_settings gradient granite hdr hexagon hollow image_map interior
-syn keyword rtlangWord interpolate intersection inverse ior jitter jpeg julia lambda leopard light_source
-syn keyword rtlangWord location look_at looks_like mandel map_type marble material matrix max_intersections
-syn keyword rtlangWord max_trace_level media_attenuation media_interaction merge metallic metric mm_per_unit
-syn keyword rtlangWord mortar no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator
-syn keyword rtlangWord normal normal_map number_of_waves object octaves offset omega once onion open orient
-syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
-syn keyword rtlangWord pigment_map planar plane png point_at poly_wave ppm premultiplied quick_color
-syn keyword rtlangWord quick_colour quilted radial radius ramp_wave reflection reflection_exponent refraction
-syn keyword rtlangWord right ripples rotate roughness scale scallop_wave shadowless sine_wave sky sky_sphere
-syn keyword rtlangWord slope_map smooth_triangle solid specular sphere spherical spiral1 split_union spotlight
-syn keyword rtlangWord spotted sturm texture texture_map tga tiff tightness torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
-syn keyword rtlangWord variance waves wood wrinkles
+syn keyword rtlangWord aperture area_light assumed_gamma average background black_hole blur_samples bounded_by
+syn keyword rtlangWord box boxed bozo brick brick_size brilliance bump_size bumps camera caustics cells
+syn keyword rtlangWord charset checker circular clipped_by color_map colour_map cone confidence
+syn keyword rtlangWord conserve_energy control0 control1 crackle crand cubic_wave cylinder cylindrical dents
+syn keyword rtlangWord difference diffuse direction disc dist_exp distance emission exponent exr fade_color
+syn keyword rtlangWord fade_colour fade_distance fade_power falloff finish fisheye flip focal_point fog
+syn keyword rtlangWord fog_alt fog_offset fog_type form frequency fresnel gamma global_settings gradient
+syn keyword rtlangWord granite hdr hexagon hf_gray_16 hollow image_map interior interpolate intersection
+syn keyword rtlangWord inverse ior irid irid_wavelength jitter jpeg julia lambda leopard light_source location
+syn keyword rtlangWord look_at looks_like major_radius mandel map_type marble material matrix
+syn keyword rtlangWord max_intersections max_trace_level media_attenuation media_interaction merge metallic
+syn keyword rtlangWord metric mm_per_unit mortar no_bump_scale no_image no_radiosity no_reflection no_shadow
+syn keyword rtlangWord noise_generator normal normal_map number_of_waves object octaves offset omega omnimax
+syn keyword rtlangWord once onion open orient orientation orthographic panoramic parallel pattern perspective
+syn keyword rtlangWord pgm phase phong phong_size pigment pigment_map pigment_pattern planar plane png
+syn keyword rtlangWord point_at poly_wave ppm premultiplied quick_color quick_colour quilted radial radius
+syn keyword rtlangWord ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
+syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope_map
+syn keyword rtlangWord smooth_triangle solid specular sphere spherical spiral1 spiral2 split_union spotlight
+syn keyword rtlangWord spotted strength sturm texture texture_map tga thickness tiff tightness toroidal torus
+syn keyword rtlangWord transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union
+syn keyword rtlangWord up use_color use_colour variance warp waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

@@ -129,7 +129,7 @@ static const SchemaProperty camera_properties[] = {
     {"omnimax", TYPE_FLAG, AT(CameraDesc, types[CAMERA_OMNIMAX]), .is_first = true,
      .doc = "of a dome: half a turn across, cut below; black outside of it"},
     {"cylinder", TYPE_ACTION, ACTION_CYLINDER, .is_first = true,
-     .doc = "then 1 to 4: on an upright (1, 3) or lying (2, 4) cylinder, `angle` around, 90; 3, 4: from along its axis"},
+     .doc = "1, 3: an upright one; 2, 4: a lying one; `angle` around, 90"},
     {"location", TYPE_VECTOR, AT(CameraDesc, location), .doc = "where the eye is"},
     {"direction", TYPE_VECTOR, AT(CameraDesc, direction), .doc = "from the eye to the middle of the picture"},
     {"right", TYPE_VECTOR, AT(CameraDesc, right), GIVEN(CameraDesc, has_right),
@@ -356,7 +356,7 @@ static const SchemaProperty settings_properties[] = {
      .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of waves"},
     {"charset", TYPE_ACTION, ACTION_CHARSET, .doc = "how the bytes of strings are read: `ascii`, `utf8` or `sys`"},
     {"irid_wavelength", TYPE_RGB, AT(SettingsDesc, irid_wavelength),
-     .doc = "of red, green and blue, in the unit of the thickness of `irid`"},
+     .doc = "of light, in the unit of the thickness of `irid`"},
     {"hf_gray_16", TYPE_SWITCH, AT(SettingsDesc, is_ignored), .doc = "accepted; changes no picture"},
     {"max_intersections", TYPE_NUMBER, AT(SettingsDesc, ignored), .doc = "accepted; changes no picture"},
     {"mm_per_unit", TYPE_NUMBER, AT(SettingsDesc, ignored), .doc = "accepted; changes no picture"},
@@ -413,11 +413,11 @@ static const SchemaProperty pigment_properties[] = {
 #define WARP_AT(field) .at = (uint16_t)offsetof(WarpDesc, warp.field)
 
 static const SchemaProperty warp_properties[] = {
-    {"turbulence", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector: moves each point by noise, so much; also of `black_hole`"},
+    {"turbulence", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector: moves each point by noise, so much"},
     {"octaves", TYPE_INTEGER, WARP_AT(octaves), .range = {RANGE_CLAMP, false, 1.0, 10.0}, .doc = "of turbulence: noises added up"},
     {"lambda", TYPE_NUMBER, WARP_AT(lambda), .doc = "of turbulence: how much finer each octave is"},
     {"omega", TYPE_NUMBER, WARP_AT(omega), .doc = "of turbulence: how much weaker each octave is"},
-    {"repeat", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector along x, y or z: the slice so wide again and again; also of `black_hole`"},
+    {"repeat", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector along x, y or z: the slice so wide again and again"},
     {"offset", TYPE_VECTOR, WARP_AT(offset), .doc = "of `repeat`: each slice from the one before"},
     {"flip", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "of `repeat`: every other slice is turned where this is not 0"},
     {"black_hole", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then its middle and its radius: draws points to its middle"},
