@@ -44,9 +44,9 @@ syn keyword rtlangWord point_at poly_wave ppm premultiplied quick_color quick_co
 syn keyword rtlangWord ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
 syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope_map
 syn keyword rtlangWord smooth_triangle solid specular sphere spherical spiral1 spiral2 split_union spotlight
-syn keyword rtlangWord spotted strength sturm texture texture_map tga thickness tiff tightness toroidal torus
-syn keyword rtlangWord transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union
-syn keyword rtlangWord up use_color use_colour variance warp waves wood wrinkles
+syn keyword rtlangWord spotted strength sturm texture texture_map tga thickness tiff tightness tiles toroidal
+syn keyword rtlangWord torus transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle
+syn keyword rtlangWord union up use_color use_colour variance warp waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

@@ -22,53 +22,94 @@ static void run(const NoiseSource *source, uint32_t first, const double *slots, 
 static double of_one(FormulaOp op, double a)
 {
     switch (op) {
-    case FORMULA_NEG: return -a;
-    case FORMULA_ABS: return fabs(a);
-    case FORMULA_SIN: return sin(a);
-    case FORMULA_COS: return cos(a);
-    case FORMULA_TAN: return tan(a);
-    case FORMULA_ASIN: return asin(a);
-    case FORMULA_ACOS: return acos(a);
-    case FORMULA_ATAN: return atan(a);
-    case FORMULA_SINH: return sinh(a);
-    case FORMULA_COSH: return cosh(a);
-    case FORMULA_TANH: return tanh(a);
-    case FORMULA_ASINH: return asinh(a);
-    case FORMULA_ACOSH: return acosh(a);
-    case FORMULA_ATANH: return atanh(a);
-    case FORMULA_EXP: return exp(a);
-    case FORMULA_LN: return log(a);
-    case FORMULA_LOG: return log10(a);
-    case FORMULA_SQRT: return sqrt(a);
-    case FORMULA_FLOOR: return floor(a);
-    case FORMULA_CEIL: return ceil(a);
-    case FORMULA_INT: return number_to_int(a);
-    case FORMULA_DEGREES: return number_degrees(a);
-    default: return number_radians(a);
+    case FORMULA_NEG:
+        return -a;
+    case FORMULA_ABS:
+        return fabs(a);
+    case FORMULA_SIN:
+        return sin(a);
+    case FORMULA_COS:
+        return cos(a);
+    case FORMULA_TAN:
+        return tan(a);
+    case FORMULA_ASIN:
+        return asin(a);
+    case FORMULA_ACOS:
+        return acos(a);
+    case FORMULA_ATAN:
+        return atan(a);
+    case FORMULA_SINH:
+        return sinh(a);
+    case FORMULA_COSH:
+        return cosh(a);
+    case FORMULA_TANH:
+        return tanh(a);
+    case FORMULA_ASINH:
+        return asinh(a);
+    case FORMULA_ACOSH:
+        return acosh(a);
+    case FORMULA_ATANH:
+        return atanh(a);
+    case FORMULA_EXP:
+        return exp(a);
+    case FORMULA_LN:
+        return log(a);
+    case FORMULA_LOG:
+        return log10(a);
+    case FORMULA_SQRT:
+        return sqrt(a);
+    case FORMULA_FLOOR:
+        return floor(a);
+    case FORMULA_CEIL:
+        return ceil(a);
+    case FORMULA_INT:
+        return number_to_int(a);
+    case FORMULA_DEGREES:
+        return number_degrees(a);
+    default:
+        return number_radians(a);
     }
 }
 
 static double of_two(FormulaOp op, double a, double b)
 {
     switch (op) {
-    case FORMULA_ADD: return a + b;
-    case FORMULA_SUB: return a - b;
-    case FORMULA_MUL: return a * b;
-    case FORMULA_DIV: return a / b;
-    case FORMULA_EQ: return a == b;
-    case FORMULA_NE: return a != b;
-    case FORMULA_LT: return a < b;
-    case FORMULA_LE: return a <= b;
-    case FORMULA_GT: return a > b;
-    case FORMULA_GE: return a >= b;
-    case FORMULA_AND: return a != 0.0 && b != 0.0;
-    case FORMULA_OR: return a != 0.0 || b != 0.0;
-    case FORMULA_ATAN2: return atan2(a, b);
-    case FORMULA_POW: return pow(a, b);
-    case FORMULA_MOD: return fmod(a, b);
-    case FORMULA_QUOTIENT: return number_to_int(a / b);
-    case FORMULA_MIN: return a <= b ? a : b; // where one is no number, the second, as in the evaluator
-    default: return b > a ? b : a;
+    case FORMULA_ADD:
+        return a + b;
+    case FORMULA_SUB:
+        return a - b;
+    case FORMULA_MUL:
+        return a * b;
+    case FORMULA_DIV:
+        return a / b;
+    case FORMULA_EQ:
+        return a == b;
+    case FORMULA_NE:
+        return a != b;
+    case FORMULA_LT:
+        return a < b;
+    case FORMULA_LE:
+        return a <= b;
+    case FORMULA_GT:
+        return a > b;
+    case FORMULA_GE:
+        return a >= b;
+    case FORMULA_AND:
+        return a != 0.0 && b != 0.0;
+    case FORMULA_OR:
+        return a != 0.0 || b != 0.0;
+    case FORMULA_ATAN2:
+        return atan2(a, b);
+    case FORMULA_POW:
+        return pow(a, b);
+    case FORMULA_MOD:
+        return fmod(a, b);
+    case FORMULA_QUOTIENT:
+        return number_to_int(a / b);
+    case FORMULA_MIN:
+        return a <= b ? a : b; // where one is no number, the second, as in the evaluator
+    default:
+        return b > a ? b : a;
     }
 }
 
@@ -96,9 +137,12 @@ static double painted_of(const NoiseSource *source, const FormulaStep *step, con
     const double v[5] = {(double)(float)colour.red, (double)(float)colour.green, (double)(float)colour.blue,
                          (double)(float)colour.filter, (double)(float)colour.transmit};
     switch ((unsigned)step->number) {
-    case FORMULA_GRAY: return rgb_luminance(rgb(v[0], v[1], v[2]));
-    case FORMULA_HEIGHT: return (v[0] + v[1] / 255.0) * 0.996093; // the manual's, 2.2.2.5.4 "Pigment Functions"
-    default: return v[(unsigned)step->number];
+    case FORMULA_GRAY:
+        return rgb_luminance(rgb(v[0], v[1], v[2]));
+    case FORMULA_HEIGHT:
+        return (v[0] + v[1] / 255.0) * 0.996093; // the manual's, 2.2.2.5.4 "Pigment Functions"
+    default:
+        return v[(unsigned)step->number];
     }
 }
 
@@ -106,9 +150,15 @@ static double painted_of(const NoiseSource *source, const FormulaStep *step, con
 static unsigned of_more(const Place *place, const FormulaStep *step, double *top)
 {
     switch ((FormulaOp)step->op) {
-    case FORMULA_SELECT3: top[-3] = select_of(top - 3, false); return 3;
-    case FORMULA_SELECT4: top[-4] = select_of(top - 4, true); return 4;
-    case FORMULA_NOISE: top[-3] = noise_of(place->source, top - 3, place->source->generator); return 3;
+    case FORMULA_SELECT3:
+        top[-3] = select_of(top - 3, false);
+        return 3;
+    case FORMULA_SELECT4:
+        top[-4] = select_of(top - 4, true);
+        return 4;
+    case FORMULA_NOISE:
+        top[-3] = noise_of(place->source, top - 3, place->source->generator);
+        return 3;
     case FORMULA_NOISE_CHOSEN:
         top[-4] = noise_of(place->source, top - 4, noise_generator((int)number_to_int(top[-1]) & 3));
         return 4;
@@ -118,7 +168,9 @@ static unsigned of_more(const Place *place, const FormulaStep *step, double *top
         top[-(int)count] = top[0];
         return count;
     }
-    default: top[-3] = painted_of(place->source, step, top - 3); return 3;
+    default:
+        top[-3] = painted_of(place->source, step, top - 3);
+        return 3;
     }
 }
 

@@ -63,7 +63,8 @@ static Vec3 black_hole(const Warp *warp, const NoiseSource *source, Vec3 p)
 
 // ---- mappings: two coordinates of a surface, and the distance that the third one is
 
-// A vector as the orientation has it: turned where that is along an axis, and sheared elsewhere, as in POV-Ray. Measured.
+// A vector as the orientation has it: turned where that is along an axis, and sheared elsewhere, as in POV-Ray.
+// Measured.
 static Vec3 turn_back(const Warp *warp, Vec3 p)
 {
     Vec3 to = vec3_normalize(warp->vector);
@@ -114,12 +115,8 @@ static Vec3 toroidal(const Warp *warp, const NoiseSource *source, Vec3 p)
 }
 
 static const WarpFunction functions[WARP_TYPES] = {
-    [WARP_TURBULENCE] = turbulence,
-    [WARP_REPEAT] = repeat,
-    [WARP_BLACK_HOLE] = black_hole,
-    [WARP_PLANAR] = planar,
-    [WARP_CYLINDRICAL] = cylindrical,
-    [WARP_SPHERICAL] = spherical,
+    [WARP_TURBULENCE] = turbulence, [WARP_REPEAT] = repeat,           [WARP_BLACK_HOLE] = black_hole,
+    [WARP_PLANAR] = planar,         [WARP_CYLINDRICAL] = cylindrical, [WARP_SPHERICAL] = spherical,
     [WARP_TOROIDAL] = toroidal,
 };
 

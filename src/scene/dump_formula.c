@@ -1,7 +1,7 @@
 // Formulas and warps as `.scn` text.
 //
-// A formula is written as the expression that gives the same steps; what it calls, and the patterns and pigments that it
-// asks, are functions that are declared before. Knows only what it writes of the language.
+// A formula is written as the expression that gives the same steps; what it calls, and the patterns and pigments that
+// it asks, are functions that are declared before. Knows only what it writes of the language.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/dump.h"
@@ -9,20 +9,23 @@
 #include <stdlib.h>
 
 static const char *const infix[FORMULA_OPS] = {
-    [FORMULA_ADD] = "+", [FORMULA_SUB] = "-", [FORMULA_MUL] = "*", [FORMULA_DIV] = "/",  [FORMULA_EQ] = "=",
-    [FORMULA_NE] = "!=", [FORMULA_LT] = "<",  [FORMULA_LE] = "<=", [FORMULA_GT] = ">",   [FORMULA_GE] = ">=",
-    [FORMULA_AND] = "&", [FORMULA_OR] = "|",
+    [FORMULA_ADD] = "+", [FORMULA_SUB] = "-", [FORMULA_MUL] = "*", [FORMULA_DIV] = "/",
+    [FORMULA_EQ] = "=",  [FORMULA_NE] = "!=", [FORMULA_LT] = "<",  [FORMULA_LE] = "<=",
+    [FORMULA_GT] = ">",  [FORMULA_GE] = ">=", [FORMULA_AND] = "&", [FORMULA_OR] = "|",
 };
 
 static const char *const words[FORMULA_OPS] = {
-    [FORMULA_ATAN2] = "atan2",     [FORMULA_POW] = "pow",         [FORMULA_MOD] = "mod",     [FORMULA_QUOTIENT] = "div",
-    [FORMULA_MIN] = "min",         [FORMULA_MAX] = "max",         [FORMULA_NEG] = "-",       [FORMULA_ABS] = "abs",
-    [FORMULA_SIN] = "sin",         [FORMULA_COS] = "cos",         [FORMULA_TAN] = "tan",     [FORMULA_ASIN] = "asin",
-    [FORMULA_ACOS] = "acos",       [FORMULA_ATAN] = "atan",       [FORMULA_SINH] = "sinh",   [FORMULA_COSH] = "cosh",
-    [FORMULA_TANH] = "tanh",       [FORMULA_ASINH] = "asinh",     [FORMULA_ACOSH] = "acosh", [FORMULA_ATANH] = "atanh",
-    [FORMULA_EXP] = "exp",         [FORMULA_LN] = "ln",           [FORMULA_LOG] = "log",     [FORMULA_SQRT] = "sqrt",
-    [FORMULA_FLOOR] = "floor",     [FORMULA_CEIL] = "ceil",       [FORMULA_INT] = "int",     [FORMULA_DEGREES] = "degrees",
-    [FORMULA_RADIANS] = "radians", [FORMULA_SELECT3] = "select",  [FORMULA_SELECT4] = "select",
+    [FORMULA_ATAN2] = "atan2",     [FORMULA_POW] = "pow",         [FORMULA_MOD] = "mod",
+    [FORMULA_QUOTIENT] = "div",    [FORMULA_MIN] = "min",         [FORMULA_MAX] = "max",
+    [FORMULA_NEG] = "-",           [FORMULA_ABS] = "abs",         [FORMULA_SIN] = "sin",
+    [FORMULA_COS] = "cos",         [FORMULA_TAN] = "tan",         [FORMULA_ASIN] = "asin",
+    [FORMULA_ACOS] = "acos",       [FORMULA_ATAN] = "atan",       [FORMULA_SINH] = "sinh",
+    [FORMULA_COSH] = "cosh",       [FORMULA_TANH] = "tanh",       [FORMULA_ASINH] = "asinh",
+    [FORMULA_ACOSH] = "acosh",     [FORMULA_ATANH] = "atanh",     [FORMULA_EXP] = "exp",
+    [FORMULA_LN] = "ln",           [FORMULA_LOG] = "log",         [FORMULA_SQRT] = "sqrt",
+    [FORMULA_FLOOR] = "floor",     [FORMULA_CEIL] = "ceil",       [FORMULA_INT] = "int",
+    [FORMULA_DEGREES] = "degrees", [FORMULA_RADIANS] = "radians", [FORMULA_SELECT3] = "select",
+    [FORMULA_SELECT4] = "select",
 };
 
 // The arguments of functions: those of a pattern's own have the first three.
@@ -38,10 +41,10 @@ typedef struct Writer {
 static unsigned takes(const FormulaStep *step)
 {
     FormulaOp op = (FormulaOp)step->op;
-    return op <= FORMULA_SLOT          ? 0
-           : op <= FORMULA_MAX         ? 2
-           : op <= FORMULA_RADIANS     ? 1
-           : op == FORMULA_CALL        ? (unsigned)step->number
+    return op <= FORMULA_SLOT                                    ? 0
+           : op <= FORMULA_MAX                                   ? 2
+           : op <= FORMULA_RADIANS                               ? 1
+           : op == FORMULA_CALL                                  ? (unsigned)step->number
            : op == FORMULA_SELECT4 || op == FORMULA_NOISE_CHOSEN ? 4
                                                                  : 3;
 }
@@ -89,7 +92,9 @@ static void write_value(const Writer *writer, size_t last)
     const FormulaStep *step = writer->steps[last];
     TextBuffer *out = writer->out;
     switch ((FormulaOp)step->op) {
-    case FORMULA_NUMBER: dump_number(out, "", step->number); return;
+    case FORMULA_NUMBER:
+        dump_number(out, "", step->number);
+        return;
     case FORMULA_SLOT:
         if (writer->is_pattern) {
             text_append(out, slot_words[step->which]);
@@ -97,10 +102,18 @@ static void write_value(const Writer *writer, size_t last)
             text_printf(out, "A%lu", (unsigned long)step->which);
         }
         return;
-    case FORMULA_CALL: text_printf(out, "G%lu", (unsigned long)step->which); break;
-    case FORMULA_PATTERN: text_printf(out, "Q%lu", (unsigned long)step->which); break;
-    case FORMULA_PIGMENT: text_printf(out, "R%lu", (unsigned long)step->which); break;
-    default: text_append(out, words[step->op] ? words[step->op] : ""); break;
+    case FORMULA_CALL:
+        text_printf(out, "G%lu", (unsigned long)step->which);
+        break;
+    case FORMULA_PATTERN:
+        text_printf(out, "Q%lu", (unsigned long)step->which);
+        break;
+    case FORMULA_PIGMENT:
+        text_printf(out, "R%lu", (unsigned long)step->which);
+        break;
+    default:
+        text_append(out, words[step->op] ? words[step->op] : "");
+        break;
     }
     write_arguments(writer, last, infix[step->op]);
     write_component(step, out);
@@ -174,7 +187,8 @@ static void declare_parts(const Scene *scene, uint32_t first, TextBuffer *out)
             text_printf(out, "#ifndef (R%lu) #declare R%lu = function { pigment { P%lu } } #end\n",
                         (unsigned long)step->which, (unsigned long)step->which, (unsigned long)step->which + 1);
             break;
-        default: break;
+        default:
+            break;
         }
     }
 }
@@ -226,7 +240,8 @@ static void dump_warp(const Warp *warp, TextBuffer *out)
         dump_number(out, ", ", warp->radius);
         text_append(out, " }\n");
         return;
-    default: break;
+    default:
+        break;
     }
     text_append(out, warp->type == WARP_CYLINDRICAL ? "  warp { cylindrical"
                      : warp->type == WARP_SPHERICAL ? "  warp { spherical"

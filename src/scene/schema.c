@@ -377,6 +377,7 @@ static const SchemaProperty texture_properties[] = {
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
     {"texture_map", TYPE_BLOCK, ACTION_MAP, .doc = "textures along a pattern of values"},
+    {"tiles", TYPE_BLOCK, ACTION_TILES, .doc = "old: `{ textures tile2 textures }`, `checker` of the second and the first"},
     {"no_bump_scale", TYPE_FLAG, AT(TextureDesc, keeps_length),
      .doc = "the depth of its bumps is not scaled with it; not for a pattern of textures"},
 };

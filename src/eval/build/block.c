@@ -32,7 +32,8 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
-    [ACTION_SKY_LAYER] = sky_layer_action,     [ACTION_WARP] = warp_action,
+    [ACTION_SKY_LAYER] = sky_layer_action,     [ACTION_WARP] = warp_action,              [ACTION_TILES] = tiles_action,
+   
     [ACTION_WARP_TYPE] = warp_type_action,    [ACTION_FUNCTION] = pattern_function_action,
     [ACTION_IRID] = finish_irid_action,       [ACTION_CYLINDER] = camera_cylinder_action,
     [ACTION_CHARSET] = settings_charset_action,

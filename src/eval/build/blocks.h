@@ -177,6 +177,8 @@ static inline bool normal_lacks_pattern(const NormalDesc *normal)
 // A pigment's colour begins with a colour word or with an identifier of a colour: POV-Ray takes nothing else.
 bool block_begins_like_colour(Block *block, const AstNode *item);
 
+// Whether a pattern may stand here: it must be the first word.
+bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // A function and what it gives at a point.
 bool pattern_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 
@@ -215,6 +217,7 @@ bool material_take_name(Block *block, const MaterialDesc *material, Span span) R
 void texture_transform(TextureDesc *texture, const Transform *transform);
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool finish_irid_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool tiles_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool finish_close(Block *block) RT_MUST_CHECK;
 bool reflection_close(Block *block) RT_MUST_CHECK;

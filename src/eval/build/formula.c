@@ -1,7 +1,7 @@
 // Functions as the renderer sees them: the tree of a function's body becomes the steps of a formula.
 //
-// A function that is called becomes a formula of its own, made once; what patterns and pigments it asks become records of
-// the same scene. What the renderer has not is reported by name. Knows nothing of how a step is done.
+// A function that is called becomes a formula of its own, made once; what patterns and pigments it asks become records
+// of the same scene. What the renderer has not is reported by name. Knows nothing of how a step is done.
 //
 // SPDX-License-Identifier: MIT
 #include "eval/build/blocks.h"
@@ -92,13 +92,13 @@ static FormulaOp builtin_of(Word word)
         Word word;
         FormulaOp op;
     } builtins[] = {
-        {W_abs, FORMULA_ABS},     {W_sin, FORMULA_SIN},         {W_cos, FORMULA_COS},     {W_tan, FORMULA_TAN},
-        {W_asin, FORMULA_ASIN},   {W_acos, FORMULA_ACOS},       {W_atan, FORMULA_ATAN},   {W_sinh, FORMULA_SINH},
-        {W_cosh, FORMULA_COSH},   {W_tanh, FORMULA_TANH},       {W_asinh, FORMULA_ASINH}, {W_acosh, FORMULA_ACOSH},
-        {W_atanh, FORMULA_ATANH}, {W_exp, FORMULA_EXP},         {W_ln, FORMULA_LN},       {W_log, FORMULA_LOG},
-        {W_sqrt, FORMULA_SQRT},   {W_floor, FORMULA_FLOOR},     {W_ceil, FORMULA_CEIL},   {W_int, FORMULA_INT},
+        {W_abs, FORMULA_ABS},         {W_sin, FORMULA_SIN},         {W_cos, FORMULA_COS},     {W_tan, FORMULA_TAN},
+        {W_asin, FORMULA_ASIN},       {W_acos, FORMULA_ACOS},       {W_atan, FORMULA_ATAN},   {W_sinh, FORMULA_SINH},
+        {W_cosh, FORMULA_COSH},       {W_tanh, FORMULA_TANH},       {W_asinh, FORMULA_ASINH}, {W_acosh, FORMULA_ACOSH},
+        {W_atanh, FORMULA_ATANH},     {W_exp, FORMULA_EXP},         {W_ln, FORMULA_LN},       {W_log, FORMULA_LOG},
+        {W_sqrt, FORMULA_SQRT},       {W_floor, FORMULA_FLOOR},     {W_ceil, FORMULA_CEIL},   {W_int, FORMULA_INT},
         {W_degrees, FORMULA_DEGREES}, {W_radians, FORMULA_RADIANS}, {W_atan2, FORMULA_ATAN2}, {W_pow, FORMULA_POW},
-        {W_mod, FORMULA_MOD},     {W_div, FORMULA_QUOTIENT},    {W_min, FORMULA_MIN},     {W_max, FORMULA_MAX},
+        {W_mod, FORMULA_MOD},         {W_div, FORMULA_QUOTIENT},    {W_min, FORMULA_MIN},     {W_max, FORMULA_MAX},
         {W_select, FORMULA_SELECT3},
     };
     for (size_t i = 0; i < RT_COUNT_OF(builtins); i++) {
@@ -183,11 +183,30 @@ static bool emit_call(Making *body, const FunctionNode *node)
     return emit(body, (FormulaStep){.op = FORMULA_CALL, .which = made.first, .number = count}, count);
 }
 
+// The distance from the origin, less the fourth argument for a sphere.
+static bool emit_distance(Making *body, bool is_sphere)
+{
+    for (unsigned slot = 0; slot < 3; slot++) {
+        if (!emit(body, (FormulaStep){.op = FORMULA_SLOT, .which = slot}, 0) ||
+            !emit(body, (FormulaStep){.op = FORMULA_SLOT, .which = slot}, 0) ||
+            !emit(body, (FormulaStep){.op = FORMULA_MUL}, 2) ||
+            (slot > 0 && !emit(body, (FormulaStep){.op = FORMULA_ADD}, 2))) {
+            return false;
+        }
+    }
+    return emit(body, (FormulaStep){.op = FORMULA_SQRT}, 1) &&
+           (!is_sphere || (emit(body, (FormulaStep){.op = FORMULA_SLOT, .which = 3}, 0) &&
+                           emit(body, (FormulaStep){.op = FORMULA_SUB}, 2)));
+}
+
 // What functions.inc gives.
 static bool emit_given(Making *body, const FunctionNode *node)
 {
-    enum { NOISE = 76, NOISE_CHOSEN = 78 };
+    enum { R = 57, SPHERE = 61, NOISE = 76, NOISE_CHOSEN = 78 };
     bool is_chosen = node->number == NOISE_CHOSEN;
+    if (node->number == R || node->number == SPHERE) {
+        return emit_distance(body, node->number == SPHERE);
+    }
     if (node->number != NOISE && !is_chosen) {
         return unsupported(body->maker, "internal");
     }

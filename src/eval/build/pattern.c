@@ -234,6 +234,7 @@ static bool is_of_pattern(const SchemaProperty *property)
     switch (property->action) {
     case ACTION_PATTERN:
     case ACTION_FUNCTION:
+    case ACTION_TILES:
     case ACTION_WARP:
     case ACTION_PATTERN_SOLID:
     case ACTION_WAVE:
@@ -258,7 +259,8 @@ static bool fits_texture(Block *block, const SchemaProperty *property, const Ast
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand in a texture that begins with a pattern",
                            property->word);
     }
-    bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_FUNCTION || property->action == ACTION_MAP; // of its own
+    bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_FUNCTION ||
+                       property->action == ACTION_TILES || property->action == ACTION_MAP; // of its own
     return !is_word || !block->is_plain || has_message ||
            block_fault(block, DIAG_E0256, item->span, "`%s` can stand only in a texture that begins with a pattern",
                        property->word);
@@ -511,7 +513,7 @@ static bool read_pigment_pattern(Block *block, const AstNode *item)
 }
 
 // A pattern stands first.
-static bool may_begin(Block *block, const SchemaProperty *property, const AstNode *item)
+bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     return may_have_pattern(block, property, item) &&
            ((block->items <= 1 && block->arguments == 0) ||
@@ -528,7 +530,7 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     Pattern *pattern = &block->record->patterned.pattern;
     PatternType type = type_of(property->word);
     const PatternInfo *info = pattern_info(type);
-    if (!may_begin(block, property, item)) {
+    if (!pattern_may_begin(block, property, item)) {
         return false;
     }
     // A list of blocks becomes a map along values: the first at 0, the second at 1. A map of normals is no list.
@@ -564,7 +566,7 @@ bool pattern_function_action(Block *block, const SchemaProperty *property, const
 {
     PatternPart *part = &block->record->patterned;
     Value value;
-    if (!may_begin(block, property, item) || !eval_rvalue(block->ev, item, &value)) {
+    if (!pattern_may_begin(block, property, item) || !eval_rvalue(block->ev, item, &value)) {
         return false;
     }
     begin_pattern(&part->pattern, PATTERN_FUNCTION);

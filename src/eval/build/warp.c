@@ -83,14 +83,29 @@ static bool begin_type(Block *block, WarpType type, Span span, const char *word)
 static bool type_of_word(Symbol word, WarpType *type)
 {
     switch ((Word)word) {
-    case W_turbulence: *type = WARP_TURBULENCE; return true;
-    case W_repeat: *type = WARP_REPEAT; return true;
-    case W_black_hole: *type = WARP_BLACK_HOLE; return true;
-    case W_planar: *type = WARP_PLANAR; return true;
-    case W_cylindrical: *type = WARP_CYLINDRICAL; return true;
-    case W_spherical: *type = WARP_SPHERICAL; return true;
-    case W_toroidal: *type = WARP_TOROIDAL; return true;
-    default: return false;
+    case W_turbulence:
+        *type = WARP_TURBULENCE;
+        return true;
+    case W_repeat:
+        *type = WARP_REPEAT;
+        return true;
+    case W_black_hole:
+        *type = WARP_BLACK_HOLE;
+        return true;
+    case W_planar:
+        *type = WARP_PLANAR;
+        return true;
+    case W_cylindrical:
+        *type = WARP_CYLINDRICAL;
+        return true;
+    case W_spherical:
+        *type = WARP_SPHERICAL;
+        return true;
+    case W_toroidal:
+        *type = WARP_TOROIDAL;
+        return true;
+    default:
+        return false;
     }
 }
 
@@ -113,11 +128,16 @@ bool warp_type_action(Block *block, const SchemaProperty *property, const AstNod
         return false;
     }
     switch (type) {
-    case WARP_TURBULENCE: return read_vector(block, property->word, offsetof(WarpDesc, warp.vector), item->span);
-    case WARP_REPEAT: return read_repeat(block, item->span);
-    case WARP_BLACK_HOLE: return read_hole(block, item->span);
-    case WARP_PLANAR: return read_plane(block, item->span);
-    default: return true;
+    case WARP_TURBULENCE:
+        return read_vector(block, property->word, offsetof(WarpDesc, warp.vector), item->span);
+    case WARP_REPEAT:
+        return read_repeat(block, item->span);
+    case WARP_BLACK_HOLE:
+        return read_hole(block, item->span);
+    case WARP_PLANAR:
+        return read_plane(block, item->span);
+    default:
+        return true;
     }
 }
 
@@ -135,8 +155,8 @@ bool warp_close(Block *block)
 {
     const WarpDesc *warp = &block->record->warp;
     if (!has_type(warp)) {
-        return block->has_unsupported ||
-               block_fault(block, DIAG_E0253, block->node->span, "`warp` needs the word of a warp, such as `turbulence`");
+        return block->has_unsupported || block_fault(block, DIAG_E0253, block->node->span,
+                                                     "`warp` needs the word of a warp, such as `turbulence`");
     }
     bool is_mapping = warp->warp.type >= WARP_PLANAR;
     return !is_mapping || vec3_length_squared(warp->warp.vector) > 0.0 ||

@@ -99,9 +99,9 @@ typedef struct NumberForm {
 } NumberForm;
 
 static const NumberForm forms[] = {
-    {W_uint8, false, false, 1},    {W_sint8, true, false, 1},    {W_uint16le, false, false, 2},
-    {W_uint16be, false, true, 2},  {W_sint16le, true, false, 2}, {W_sint16be, true, true, 2},
-    {W_sint32le, true, false, 4},  {W_sint32be, true, true, 4},
+    {W_uint8, false, false, 1},   {W_sint8, true, false, 1},    {W_uint16le, false, false, 2},
+    {W_uint16be, false, true, 2}, {W_sint16le, true, false, 2}, {W_sint16be, true, true, 2},
+    {W_sint32le, true, false, 4}, {W_sint32be, true, true, 4},
 };
 
 static const NumberForm *form_of(const AstNode *node)
