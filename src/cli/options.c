@@ -65,9 +65,12 @@ enum { UNTRUSTED_SECONDS = 10 };
 
 static OptionsResult settle_untrusted(Options *options)
 {
-    if (options->include_path_count > 0 || options->read_folder_count > 0 || options->write_folder_count > 0) {
-        return option_complain(&options->reading, "`--untrusted` reads the scene's folder only: leave out `--include-path`, "
-                                 "`--allow-read` and `--allow-write`");
+    if (options->include_path_count > 0 || options->read_folder_count > 0) {
+        return option_complain(&options->reading, "`--untrusted` reads the scene's folder only: leave out `--include-path` and "
+                                 "`--allow-read`");
+    }
+    if (options->write_folder_count > 0) {
+        return option_complain(&options->reading, "`--untrusted` lets a scene write no files: leave out `--allow-write`");
     }
     if (options->action == ACTION_RENDER && (!is_png(options->output) || !is_png(options->error_map))) {
         return option_complain(&options->reading, "`--untrusted` writes pictures in PNG only");

@@ -270,9 +270,13 @@ static bool make_body(Maker *maker, const Function *function, Made *made)
     made->function = function;
     made->steps = body.cost < FORMULA_STEPS_MOST ? body.cost : FORMULA_STEPS_MOST + 1;
     made->room = body.room;
-    if (fine && (made->steps > FORMULA_STEPS_MOST || made->room > FORMULA_STACK_MOST)) {
+    if (fine && made->steps > FORMULA_STEPS_MOST) {
         return eval_fault(maker->ev, DIAG_E0606, maker->span, "a function of a pattern that takes more than %d steps",
                           (int)FORMULA_STEPS_MOST);
+    }
+    if (fine && made->room > FORMULA_STACK_MOST) {
+        return eval_fault(maker->ev, DIAG_E0606, maker->span,
+                          "a function of a pattern that holds more than %d numbers at a time", (int)FORMULA_STACK_MOST);
     }
     return fine;
 }
