@@ -607,7 +607,7 @@ static const OptionRow rows[] = {
     {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
     {0, "target-error", "E", apply_target_error,
      "sample until the picture's error is below E: root mean square in linear light, with 95 % confidence"},
-    {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
+    {0, "check", NULL, apply_check, "read and evaluate the scene only; draw nothing"},
     {0, "crop", "L,T,W,H", apply_crop,
      "trace W x H pixels from column L and row T only; they are those of the whole picture"},
     {0, "whole", NULL, apply_whole,
