@@ -85,6 +85,9 @@ RT_API rt_status rt_set_povray_includes(rt_session *session, int on);
 RT_API const char *rt_include_path(rt_session *session, size_t i);
 /* Let the scene read files below this folder too. It reads below its own folder and those of rt_include_path. */
 RT_API rt_status rt_allow_read(rt_session *session, const char *folder);
+/* Let the scene write files below this folder, and read them: `#fopen` with `write` or `append`. At first it writes
+ * nowhere. */
+RT_API rt_status rt_allow_write(rt_session *session, const char *folder);
 /* A file that is included before the scene's first statement, as POV-Ray's Include_Header; "" for none. */
 RT_API rt_status rt_set_header(rt_session *session, const char *path);
 /* The scene's `clock`, 0 by default; `clock_on` is then true. */

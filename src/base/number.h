@@ -38,4 +38,10 @@ static inline double number_single(double number)
     return single;
 }
 
+// What the language's functions of these names give; also in formulas that the renderer does.
+#define NUMBER_PI 3.14159265358979323846
+double number_to_int(double number); // as a C conversion to int does it on x86: what does not fit is the least int
+double number_degrees(double radians);
+double number_radians(double degrees);
+
 #endif

@@ -216,8 +216,8 @@ SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_b
     return source_opened(map, path, file, limit_bytes, source, error_number);
 }
 
-// Opens a path in which nothing is a link, part by part. A pipe is opened without waiting for its writer.
-static int open_real(const char *real)
+// Opens a path in which nothing is a link, part by part. A pipe is opened without waiting for its other end.
+static int open_real(const char *real, int how)
 {
     char part[NAME_MAX + 1];
     int folder = open("/", O_PATH | O_DIRECTORY | O_CLOEXEC);
@@ -231,8 +231,8 @@ static int open_real(const char *real)
         }
         memcpy(part, real, length);
         part[length] = '\0';
-        int flags = is_last ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
-        int next = openat(folder, part, flags | O_NOFOLLOW | O_CLOEXEC);
+        int flags = is_last ? how | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
+        int next = openat(folder, part, flags | O_NOFOLLOW | O_CLOEXEC, 0666);
         int error_number = errno;
         close(folder);
         errno = error_number;
@@ -251,7 +251,7 @@ SourceResult source_open_real(SourceMap *map, const char *real, const char *name
     struct stat status;
     *source = NULL;
     *error_number = 0;
-    int file = is_cancelled(map) ? NO_FILE : open_real(real);
+    int file = is_cancelled(map) ? NO_FILE : open_real(real, O_RDONLY);
     bool is_known = file >= 0 && fstat(file, &status) == 0;
     if (is_known && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
         close(file);
@@ -262,6 +262,23 @@ SourceResult source_open_real(SourceMap *map, const char *real, const char *name
         (*source)->is_of_scene = true;
     }
     return result;
+}
+
+int source_create_real(const char *real, bool appends)
+{
+    struct stat status;
+    int file = open_real(real, O_WRONLY | O_CREAT | (appends ? O_APPEND : 0));
+    if (file < 0) {
+        return NO_FILE;
+    }
+    bool is_known = fstat(file, &status) == 0, is_file = is_known && S_ISREG(status.st_mode);
+    if (is_file && (appends || ftruncate(file, 0) == 0)) {
+        return file;
+    }
+    int error_number = is_known && !is_file ? EINVAL : errno;
+    close(file);
+    errno = error_number;
+    return NO_FILE;
 }
 
 SourceResult source_open_stream(SourceMap *map, const char *name, int file, uint64_t limit_bytes, Source **source,

@@ -217,6 +217,10 @@ static void confine_files(const Confinement *confinement)
             allow_output(&ruleset, confinement->writes[i]);
         }
     }
+    for (size_t i = 0; i < confinement->folder_count; i++) {
+        allow(&ruleset, confinement->folders[i],
+              FS_READ_FILE | FS_READ_DIR | FS_WRITE_FILE | FS_MAKE_REG | FS_TRUNCATE);
+    }
     (void)syscall(__NR_landlock_restrict_self, ruleset.fd, 0);
     close(ruleset.fd);
 }

@@ -16,6 +16,8 @@ typedef struct Confinement {
     size_t read_count;
     const char *const *writes; // files that may be made or replaced; streams ("-", "-.ppm") and NULL are none
     size_t write_count;
+    const char *const *folders; // in which files may be made, replaced and read, with all below them
+    size_t folder_count;
     bool serves;    // an open socket's connections are taken and answered
     bool is_strict; // for strangers' scenes: no libraries are loaded any more, either
 } Confinement;

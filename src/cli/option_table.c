@@ -135,6 +135,13 @@ static bool apply_allow_read(Options *options, const char *argument, OptionReadi
     return argument[0] != '\0';
 }
 
+static bool apply_allow_write(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "a folder";
+    options->write_folders[options->write_folder_count++] = argument;
+    return argument[0] != '\0';
+}
+
 static bool apply_clock(Options *options, const char *argument, OptionReading *reading)
 {
     reading->expected = "a number";
@@ -642,7 +649,7 @@ static const OptionRow rows[] = {
     {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
     {0, "target-error", "E", apply_target_error,
      "sample until the picture's error is below E: root mean square in linear light, with 95 % confidence"},
-    {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
+    {0, "check", NULL, apply_check, "read and evaluate the scene only; draw nothing"},
     {0, "crop", "L,T,W,H", apply_crop,
      "trace W x H pixels from column L and row T only; they are those of the whole picture"},
     {0, "whole", NULL, apply_whole,
@@ -711,6 +718,8 @@ static const OptionRow rows[] = {
      "is read but the scene's folder"},
     {0, "allow-read", "FOLDER", apply_allow_read,
      "let the scene read files below FOLDER too, besides its own folder and those of -I; may repeat"},
+    {0, "allow-write", "FOLDER", apply_allow_write,
+     "let the scene write files below FOLDER, and read them; else it writes none; may repeat"},
     {0, "max-time", "SECONDS", apply_max_time, "end a run that takes longer, all stages together; nothing is written"},
     {0, "max-memory", "BYTES", apply_max_memory,
      "memory of scene and picture (default: 1 GiB and 16 bytes for each byte of text, the "

@@ -70,6 +70,9 @@ static OptionsResult settle_untrusted(Options *options)
         return option_complain(&options->reading, "`--untrusted` reads the scene's folder only: leave out `--include-path` and "
                                  "`--allow-read`");
     }
+    if (options->write_folder_count > 0) {
+        return option_complain(&options->reading, "`--untrusted` lets a scene write no files: leave out `--allow-write`");
+    }
     if (options->action == ACTION_RENDER && (!is_png(options->output) || !is_png(options->error_map))) {
         return option_complain(&options->reading, "`--untrusted` writes pictures in PNG only");
     }
@@ -127,8 +130,9 @@ OptionsResult options_read(int argc, char **argv, Options *options)
     options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);
     options->warnings = calloc((size_t)argc + 1, sizeof *options->warnings);
     options->read_folders = calloc((size_t)argc + 1, sizeof *options->read_folders);
+    options->write_folders = calloc((size_t)argc + 1, sizeof *options->write_folders);
     options->scenes = calloc((size_t)argc + 1, sizeof *options->scenes);
-    if (!options->include_paths || !options->declarations || !options->warnings || !options->read_folders ||
+    if (!options->include_paths || !options->declarations || !options->warnings || !options->read_folders || !options->write_folders ||
         !options->scenes) {
         return OPTIONS_NO_MEMORY;
     }
@@ -198,6 +202,7 @@ void options_fini(Options *options)
     free(options->declarations);
     free(options->warnings);
     free(options->read_folders);
+    free(options->write_folders);
     free(options->scenes);
     free(options->owned_joined);
     free(options->command);

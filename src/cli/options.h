@@ -79,6 +79,8 @@ struct Options {
     ColorChoice color;
     const char **read_folders; // owned list
     int read_folder_count;
+    const char **write_folders; // owned list
+    int write_folder_count;
     double clock;
     bool clock_given;
     bool no_literals;

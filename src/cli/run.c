@@ -68,6 +68,9 @@ rt_status run_configure(rt_session *session, const Options *options)
     for (int i = 0; !status && i < options->read_folder_count; i++) {
         status = rt_allow_read(session, options->read_folders[i]);
     }
+    for (int i = 0; !status && i < options->write_folder_count; i++) {
+        status = rt_allow_write(session, options->write_folders[i]);
+    }
     for (int i = 0; !status && i < LIMIT_COUNT; i++) {
         status = options->limits[i] ? rt_set_limit(session, (rt_limit)i, options->limits[i]) : RT_OK;
     }
@@ -470,6 +473,8 @@ static rt_status confine_runs(rt_session *session, Options *options)
                                .read_count = count,
                                .writes = writes,
                                .write_count = writes_file ? RT_COUNT_OF(writes) : 0,
+                               .folders = options->write_folders,
+                               .folder_count = (size_t)options->write_folder_count,
                                .serves = options->action == ACTION_WATCH,
                                .is_strict = options->is_untrusted});
         options->is_unconfined = true; // the kernel holds to these rules: there are none to be added

@@ -106,6 +106,7 @@ static void fini(Eval *ev)
     plans_fini(ev);
     objects_fini(ev);
     data_files_fini(ev);
+    written_files_close(ev); // those that are left after a fault
     files_fini(ev);
     probes_fini(ev);
     painted_fini(ev);

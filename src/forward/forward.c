@@ -56,6 +56,9 @@ const char *forward_misfit(const Prepared *prepared, const ForwardOptions *optio
         if (prepared->finishes[i].diffuse_back > 0.0) {
             return "surfaces that let diffuse light through";
         }
+        if (prepared->finishes[i].is_special) {
+            return "`crand` and `irid`";
+        }
     }
     for (size_t i = 0; i < prepared->scene->parts.count; i++) {
         if (prepared->scene->parts.items[i].hidden) {

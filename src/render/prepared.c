@@ -41,8 +41,9 @@ static PreparedCamera prepare_camera(const Camera *camera, int exponent)
     }
     if (camera->type != CAMERA_PERSPECTIVE) {
         out.direction = camera->direction;
-        out.right = camera->right;
-        out.up = camera->up;
+        bool moves = camera_type_moves(camera->type);
+        out.right = moves ? vec3_ldexp(camera->right, -exponent) : camera->right;
+        out.up = moves ? vec3_ldexp(camera->up, -exponent) : camera->up;
         out.across = unit(camera->right);
         out.upright = unit(camera->up);
         out.ahead = unit(camera->direction);
@@ -105,6 +106,8 @@ static PreparedLight prepare_light(const Light *light, int exponent)
     return out;
 }
 
+static const double two_pi = 6.28318530717958647693;
+
 static PreparedFinish prepare_finish(const Finish *finish, const Settings *settings)
 {
     return (PreparedFinish){
@@ -128,6 +131,13 @@ static PreparedFinish prepare_finish(const Finish *finish, const Settings *setti
         .reflects_evenly = rgb_is_black(rgb_add_scaled(finish->reflection_max, -1.0, finish->reflection_min)) &&
                            !(finish->reflection_metallic > 0.0),
         .refraction = finish->refraction,
+        .crand = fmax(finish->crand, 0.0),
+        .irid = fmax(finish->irid, 0.0),
+        .irid_thickness = finish->irid_thickness,
+        .irid_turbulence = finish->irid_turbulence,
+        .irid_waves = rgb(two_pi / settings->irid_wavelength.red, two_pi / settings->irid_wavelength.green,
+                          two_pi / settings->irid_wavelength.blue),
+        .is_special = finish->crand > 0.0 || finish->irid > 0.0,
         .conserves_energy = finish->flags & FINISH_CONSERVE_ENERGY,
         .is_fresnel = finish->flags & FINISH_FRESNEL,
     };
@@ -139,6 +149,7 @@ static unsigned finish_features(const PreparedFinish *finish)
 {
     bool is_lambertian = finish->diffuse_back == 0.0 && (finish->diffuse == 0.0 || finish->brilliance == 1.0);
     return (finish->shines ? (unsigned)RENDER_HIGHLIGHTS : 0) | (is_lambertian ? 0 : (unsigned)RENDER_BRILLIANCE) |
+           (finish->is_special ? (unsigned)(RENDER_TEXTURES | RENDER_PIGMENTS) : 0) |
            (finish->reflects ? (unsigned)RENDER_REFLECTION : 0) |
            (finish->reflects && finish->is_fresnel ? (unsigned)RENDER_INTERIORS : 0) |
            (finish->reflects && finish->reflection_exponent != 1.0 ? (unsigned)RENDER_EXPONENT : 0);

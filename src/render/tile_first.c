@@ -16,14 +16,19 @@ static MaterialIndex material_of(const Geometry *g, ShapeId shape)
     return shape_is_on_part(shape) ? shapes_material(&g->shapes, shape) : geometry_material(g, FEATURES, shape);
 }
 
+static bool has_plain_finish(const Prepared *p, FinishIndex finish)
+{
+    return !p->finishes[finish].reflects && !p->finishes[finish].is_special;
+}
+
 static bool is_plain(const Prepared *p, MaterialIndex index)
 {
     if (!(index & MATERIAL_COMPOUND)) {
         const Material *material = &p->materials[index];
-        return material->filter == 0.0F && material->transmit == 0.0F && !p->finishes[material->finish].reflects;
+        return material->filter == 0.0F && material->transmit == 0.0F && has_plain_finish(p, material->finish);
     }
     const Texture *texture = texture_single(&p->textures, p->compounds[index & ~MATERIAL_COMPOUND].texture);
-    return texture && texture_is_opaque(&p->textures, &texture->pigment) && !p->finishes[texture->finish].reflects;
+    return texture && texture_is_opaque(&p->textures, &texture->pigment) && has_plain_finish(p, texture->finish);
 }
 
 // The rays, of those that met something, whose surface is shaded here.

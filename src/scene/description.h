@@ -42,6 +42,15 @@ typedef struct ImageDesc {
     size_t shade_count;
 } ImageDesc;
 
+// A warp, and the one that was said before it; its record's `to_outside` is the transform since then.
+typedef struct WarpDesc WarpDesc;
+struct WarpDesc {
+    Warp warp; // `next` is not set
+    const WarpDesc *before;
+    bool types[WARP_TYPES]; // while it is read
+    unsigned count; // with those before it
+};
+
 // A pattern in space and what lies along it; with PATTERN_NONE, what the pigment or texture around it says.
 typedef struct PatternMap PatternMap;
 typedef struct PatternPart {
@@ -49,6 +58,9 @@ typedef struct PatternPart {
     Pattern pattern;
     const PatternMap *map; // NULL: the pattern's own
     const ImageDesc *image; // PATTERN_IMAGE_MAP
+    const struct Function *function; // PATTERN_FUNCTION, of the evaluator
+    const struct PigmentDesc *pigment; // PATTERN_PIGMENT
+    const WarpDesc *warps; // the last one first
 } PatternPart;
 
 typedef struct PigmentDesc {
@@ -301,11 +313,10 @@ typedef struct FogDesc {
     double distance, offset, alt;
     Vec3 up;
     Rgbft colour;
+    bool is_turbulent; // one of the words of turbulence was said, whatever its value
     Vec3 turbulence;
-    double turbulence_detail; // its lambda, omega or octaves
-    double turb_depth;
-    const char *turbulent_word; // the first that makes it turbulent, or NULL, and where it stands
-    Span turbulent_span;
+    double lambda, omega, turb_depth;
+    int octaves;
 } FogDesc;
 
 typedef struct SettingsDesc {
@@ -314,6 +325,8 @@ typedef struct SettingsDesc {
     int max_trace_level;
     int noise_generator;
     int number_of_waves;
+    Rgb irid_wavelength;
+    bool is_ignored;
     double ignored; // settings that change no picture here
 } SettingsDesc;
 
@@ -375,6 +388,7 @@ typedef union Desc {
     InteriorDesc interior;
     MaterialDesc material;
     TransformDesc transformation;
+    WarpDesc warp;
     UnsupportedDesc unsupported;
 } Desc;
 

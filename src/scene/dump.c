@@ -68,6 +68,10 @@ static void dump_settings(const Settings *settings, TextBuffer *out)
     if (settings->number_of_waves != SETTINGS_WAVES) {
         text_printf(out, "\n  number_of_waves %d", settings->number_of_waves);
     }
+    if (settings->irid_wavelength.red != (double)0.70F || settings->irid_wavelength.green != (double)0.52F ||
+        settings->irid_wavelength.blue != (double)0.48F) {
+        dump_rgb(out, "\n  irid_wavelength ", settings->irid_wavelength);
+    }
     dump_number(out, "\n  adc_bailout ", settings->adc_bailout);
     text_append(out, "\n}\n");
 }
@@ -77,13 +81,17 @@ static void dump_camera(const Camera *camera, TextBuffer *out)
     static const char *const types[CAMERA_TYPES] = {
         [CAMERA_PERSPECTIVE] = "",           [CAMERA_ORTHOGRAPHIC] = "  orthographic\n",
         [CAMERA_FISHEYE] = "  fisheye\n",    [CAMERA_ULTRA_WIDE_ANGLE] = "  ultra_wide_angle\n",
-        [CAMERA_PANORAMIC] = "  panoramic\n", [CAMERA_SPHERICAL] = "  spherical\n"};
+        [CAMERA_PANORAMIC] = "  panoramic\n", [CAMERA_SPHERICAL] = "  spherical\n",
+        [CAMERA_OMNIMAX] = "  omnimax\n",   [CAMERA_CYLINDER_1] = "  cylinder 1\n",
+        [CAMERA_CYLINDER_2] = "  cylinder 2\n", [CAMERA_CYLINDER_3] = "  cylinder 3\n",
+        [CAMERA_CYLINDER_4] = "  cylinder 4\n"};
     text_printf(out, "camera {\n%s", types[camera->type]);
     dump_vector(out, "  location ", camera->location);
     dump_vector(out, "\n  right ", camera->right);
     dump_vector(out, "\n  up ", camera->up);
     dump_vector(out, "\n  direction ", camera->direction);
-    if (camera->type > CAMERA_ORTHOGRAPHIC && camera->type != CAMERA_PANORAMIC) {
+    if (camera->type > CAMERA_ORTHOGRAPHIC && camera->type != CAMERA_PANORAMIC &&
+        camera->type != CAMERA_OMNIMAX) {
         dump_number(out, "\n  angle ", camera->angle);
     }
     if (camera->type == CAMERA_SPHERICAL) {
@@ -166,6 +174,15 @@ static void dump_finish(const Finish *finish, size_t number, TextBuffer *out)
     if (finish->refraction != 1.0) {
         dump_number(out, " }\n  refraction ", finish->refraction);
     } else {
+        text_append(out, " }");
+    }
+    if (finish->crand != 0.0) {
+        dump_number(out, "\n  crand ", finish->crand);
+    }
+    if (finish->irid != 0.0) {
+        dump_number(out, "\n  irid { ", finish->irid);
+        dump_number(out, " thickness ", finish->irid_thickness);
+        dump_number(out, " turbulence ", finish->irid_turbulence);
         text_append(out, " }");
     }
     text_append(out, finish->flags & FINISH_CONSERVE_ENERGY ? "\n  conserve_energy\n}\n" : "\n}\n");
@@ -292,6 +309,13 @@ static void dump_fog(const Fog *fog, TextBuffer *out)
         dump_number(out, " fog_offset ", fog->offset);
         dump_number(out, " fog_alt ", fog->alt);
         dump_vector(out, " up ", fog->up);
+    }
+    if (fog->is_turbulent) {
+        dump_vector(out, " turbulence ", fog->turbulence);
+        dump_number(out, " turb_depth ", fog->turb_depth);
+        dump_number(out, " lambda ", fog->lambda);
+        dump_number(out, " omega ", fog->omega);
+        text_printf(out, " octaves %d", fog->octaves);
     }
     dump_rgbft(out, " ", fog->colour);
     text_append(out, " }\n");

@@ -15,6 +15,16 @@ void dump_rgbft(TextBuffer *out, const char *before, Rgbft colour);
 // `<…>`
 void dump_numbers(TextBuffer *out, const double *numbers, size_t count);
 
+// `matrix <…>`, a line.
+void dump_matrix(const Transform *transform, TextBuffer *out);
+
+// Pattern, modifiers and place of a patterned pigment, without what lies along it.
+void dump_pattern(const Scene *scene, const PatternedPigment *record, TextBuffer *out);
+// What a pattern's formula calls, before it; the word with its formula; its warps, and the transforms between them.
+void dump_formula_parts(const Scene *scene, const Pattern *pattern, TextBuffer *out);
+void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out);
+void dump_warps(const Scene *scene, const Pattern *pattern, TextBuffer *out);
+
 // Declarations of all interiors (I1, …), patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its
 // finishes.
 void dump_textures(const Scene *scene, TextBuffer *out);

@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/dump.h"
 
-static void dump_matrix(const Transform *transform, TextBuffer *out)
+void dump_matrix(const Transform *transform, TextBuffer *out)
 {
     text_append(out, "  matrix ");
     dump_numbers(out, &transform->m[0][0], 12);
@@ -70,8 +70,12 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
     text_append(out, "\n");
 }
 
-static void dump_pattern_word(const Pattern *pattern, TextBuffer *out)
+static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBuffer *out)
 {
+    if (pattern->type == PATTERN_FUNCTION) {
+        dump_formula(scene, pattern, out);
+        return;
+    }
     const PatternInfo *info = pattern_info((PatternType)pattern->type);
     text_printf(out, "  %s", info->word);
     if (info->has_direction) {
@@ -80,6 +84,23 @@ static void dump_pattern_word(const Pattern *pattern, TextBuffer *out)
     if (info->has_count) {
         text_printf(out, info->has_direction ? ", %d" : " %d", (int)pattern->count);
     }
+    if (pattern->type == PATTERN_PIGMENT) {
+        text_printf(out, " { P%lu }", (unsigned long)pattern->image + 1);
+    }
+}
+
+static void dump_place(const Scene *scene, const Pattern *pattern, const Transform *to_world, TextBuffer *out)
+{
+    dump_warps(scene, pattern, out);
+    dump_matrix(to_world, out);
+}
+
+void dump_pattern(const Scene *scene, const PatternedPigment *record, TextBuffer *out)
+{
+    dump_pattern_word(scene, &record->pattern, out);
+    text_append(out, "\n");
+    dump_modifiers(&record->pattern, out);
+    dump_place(scene, &record->pattern, &record->to_world, out);
 }
 
 // In a string a backslash and a quote need one before them.
@@ -127,15 +148,16 @@ static void dump_image_map(const Scene *scene, const PatternedPigment *record, s
     }
     text_append(out, " }\n");
     dump_modifiers(&record->pattern, out);
-    dump_matrix(&record->to_world, out);
+    dump_place(scene, &record->pattern, &record->to_world, out);
     text_append(out, "}\n");
 }
 
 static void dump_pigment(const Scene *scene, const PatternedPigment *record, size_t number, TextBuffer *out)
 {
     bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
+    dump_formula_parts(scene, &record->pattern, out);
     text_printf(out, "#declare P%zu = pigment {\n", number);
-    dump_pattern_word(&record->pattern, out);
+    dump_pattern_word(scene, &record->pattern, out);
     text_append(out, has_blocks ? "" : "\n  pigment_map {");
     for (uint32_t i = record->entries; i != RECORD_NONE; i = scene->pigment_entries.items[i].next) {
         const PigmentEntry *entry = &scene->pigment_entries.items[i];
@@ -150,7 +172,7 @@ static void dump_pigment(const Scene *scene, const PatternedPigment *record, siz
     }
     text_append(out, has_blocks ? "\n" : " }\n");
     dump_modifiers(&record->pattern, out);
-    dump_matrix(&record->to_world, out);
+    dump_place(scene, &record->pattern, &record->to_world, out);
     text_append(out, "}\n");
 }
 
@@ -184,8 +206,9 @@ static void dump_slopes(const Scene *scene, uint32_t first, TextBuffer *out)
 static void dump_normal(const Scene *scene, const Normal *record, size_t number, TextBuffer *out)
 {
     bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
+    dump_formula_parts(scene, &record->pattern, out);
     text_printf(out, "#declare N%zu = normal {\n", number);
-    dump_pattern_word(&record->pattern, out);
+    dump_pattern_word(scene, &record->pattern, out);
     if (record->entries == RECORD_NONE || !has_blocks) {
         text_append(out, "\n");
     }
@@ -199,7 +222,7 @@ static void dump_normal(const Scene *scene, const Normal *record, size_t number,
     dump_number(out, " accuracy ", record->accuracy);
     text_append(out, record->flags & NORMAL_KEEPS_LENGTH ? " no_bump_scale\n" : "\n");
     dump_modifiers(&record->pattern, out);
-    dump_matrix(&record->to_world, out);
+    dump_place(scene, &record->pattern, &record->to_world, out);
     text_append(out, "}\n");
 }
 
@@ -220,8 +243,9 @@ static void dump_layer(const Texture *record, size_t number, TextBuffer *out)
 static void dump_texture_pattern(const Scene *scene, const Texture *record, size_t number, TextBuffer *out)
 {
     bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
+    dump_formula_parts(scene, &record->pattern, out);
     text_printf(out, "#declare T%zu = texture {\n", number);
-    dump_pattern_word(&record->pattern, out);
+    dump_pattern_word(scene, &record->pattern, out);
     text_append(out, has_blocks ? "" : "\n  texture_map {");
     for (uint32_t i = record->entries; i != RECORD_NONE; i = scene->texture_entries.items[i].next) {
         const TextureEntry *entry = &scene->texture_entries.items[i];
@@ -232,7 +256,7 @@ static void dump_texture_pattern(const Scene *scene, const Texture *record, size
     }
     text_append(out, has_blocks ? "\n" : " }\n");
     dump_modifiers(&record->pattern, out);
-    dump_matrix(&record->to_world, out);
+    dump_place(scene, &record->pattern, &record->to_world, out);
     text_append(out, "}\n");
 }
 

@@ -43,6 +43,9 @@ typedef enum PatternType {
     PATTERN_MANDEL,
     PATTERN_JULIA,
     PATTERN_QUILTED,
+    PATTERN_SPIRAL2,
+    PATTERN_FUNCTION, // a formula of x, y and z
+    PATTERN_PIGMENT,  // the grey of a pigment
     PATTERN_AVERAGE, // no pattern: all that lies along it, mixed
     PATTERN_COUNT
 } PatternType;
@@ -68,8 +71,9 @@ typedef struct Pattern {
     double agate_turb; // agate: of its own turbulence
     Vec3 turbulence;
     double lambda, omega; // of turbulence, see Octaves
-    uint32_t image;  // PATTERN_IMAGE_MAP: of Scene.image_maps; else 0
-    uint32_t unused;
+    uint32_t image;  // PATTERN_IMAGE_MAP: of Scene.image_maps; PATTERN_FUNCTION: the first of Scene.formula_steps;
+                     // PATTERN_PIGMENT: of Scene.patterns; else 0
+    uint32_t warps;  // 1 + the first of Scene.warps on the way to it; 0: there is none
 } Pattern;
 
 // What a pattern gives for a point.

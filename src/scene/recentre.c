@@ -108,10 +108,20 @@ static void move(Scene *scene, Vec3 by)
     }
 }
 
+// Whether the noise of a finish depends on where in the scene a place is.
+static bool has_places(const Scene *scene)
+{
+    bool found = false;
+    for (size_t i = 0; !found && i < scene->finishes.count; i++) {
+        found = scene->finishes.items[i].irid > 0.0 && scene->finishes.items[i].irid_turbulence != 0.0;
+    }
+    return found;
+}
+
 Vec3 scene_recentre(Scene *scene)
 {
     Vec3 origin = {0.0, 0.0, 0.0};
-    if (scene->compounds.count > 0 || scene->fogs.count > 0) {
+    if (scene->compounds.count > 0 || scene->fogs.count > 0 || has_places(scene)) {
         return origin;
     }
     origin.x = axis_gains(scene, 0) ? scene->camera.location.x : 0.0;

@@ -21,7 +21,10 @@ _Static_assert(sizeof(PictureSource) == sizeof(char *) + 4 * sizeof(uint32_t) + 
 _Static_assert(sizeof(PictureShade) == sizeof(double) + sizeof(uint64_t) + 4 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Normal) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(double) + 4 * sizeof(uint32_t),
                "no padding in a normal");
-_Static_assert(sizeof(Finish) == 24 * sizeof(double) + sizeof(uint64_t), "no padding in a finish");
+_Static_assert(sizeof(Finish) == 28 * sizeof(double) + sizeof(uint64_t), "no padding in a finish");
+_Static_assert(sizeof(FormulaStep) == sizeof(double) + 4 * sizeof(uint32_t), "no padding in a step");
+_Static_assert(sizeof(Warp) == sizeof(Transform) + 3 * sizeof(Vec3) + 6 * sizeof(double) + 4 * sizeof(uint32_t),
+               "no padding in a warp");
 
 void scene_init(Scene *scene)
 {
@@ -43,6 +46,7 @@ void scene_init(Scene *scene)
                 .ambient_light = {1.0, 1.0, 1.0},
                 .max_trace_level = 5,
                 .number_of_waves = SETTINGS_WAVES,
+                .irid_wavelength = {(double)0.70F, (double)0.52F, (double)0.48F},
                 .adc_bailout = 1.0 / 255.0,
                 .version = SCENE_VERSION_UNSAID,
             },
@@ -61,6 +65,8 @@ void scene_fini(Scene *scene)
     for (size_t i = 0; i < scene->pictures.count; i++) {
         picture_fini(&scene->pictures.items[i]);
     }
+    ARRAY_FREE(&scene->formula_steps);
+    ARRAY_FREE(&scene->warps);
     ARRAY_FREE(&scene->picture_sources);
     ARRAY_FREE(&scene->picture_shades);
     ARRAY_FREE(&scene->image_maps);
@@ -100,6 +106,8 @@ void scene_fini(Scene *scene)
     unique_fini(&scene->picture_source_index);
     unique_fini(&scene->picture_shade_index);
     unique_fini(&scene->image_map_index);
+    unique_fini(&scene->formula_step_index);
+    unique_fini(&scene->warp_index);
     scene_init(scene);
 }
 
@@ -123,6 +131,16 @@ bool scene_add_pigment_entry(Scene *scene, const PigmentEntry *entry, uint32_t *
 bool scene_add_pattern(Scene *scene, const PatternedPigment *pattern, uint32_t *index)
 {
     return ADD_ONCE(&scene->patterns, &scene->pattern_index, pattern, index);
+}
+
+bool scene_add_formula_step(Scene *scene, const FormulaStep *step, uint32_t *index)
+{
+    return ADD_ONCE(&scene->formula_steps, &scene->formula_step_index, step, index);
+}
+
+bool scene_add_warp(Scene *scene, const Warp *warp, uint32_t *index)
+{
+    return ADD_ONCE(&scene->warps, &scene->warp_index, warp, index);
 }
 
 bool scene_add_picture_shade(Scene *scene, const PictureShade *shade, uint32_t *index)
@@ -242,9 +260,10 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->planes) + LIST_BYTES(scene->parts) + LIST_BYTES(scene->meshes) +
            LIST_BYTES(scene->face_materials) + scene->mesh_bytes + LIST_BYTES(scene->nodes) +
            LIST_BYTES(scene->composites) + LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
-           LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
-           LIST_BYTES(scene->pictures) + LIST_BYTES(scene->numbers.lists) + LIST_BYTES(scene->numbers.slots) +
-           scene->numbers.bytes + scene_picture_bytes(scene);
+           LIST_BYTES(scene->formula_steps) + LIST_BYTES(scene->warps) + LIST_BYTES(scene->picture_sources) +
+           LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) + LIST_BYTES(scene->pictures) +
+           LIST_BYTES(scene->numbers.lists) + LIST_BYTES(scene->numbers.slots) + scene->numbers.bytes +
+           scene_picture_bytes(scene);
 #undef LIST_BYTES
 }
 

@@ -21,9 +21,11 @@
 #include "math/vec3.h"
 #include "scene/numbers.h"
 #include "scene/mesh.h"
+#include "scene/formula.h"
 #include "scene/pattern.h"
 #include "scene/picture.h"
 #include "scene/unique.h"
+#include "scene/warp.h"
 
 typedef enum CameraType {
     CAMERA_PERSPECTIVE,
@@ -32,8 +34,19 @@ typedef enum CameraType {
     CAMERA_ULTRA_WIDE_ANGLE,
     CAMERA_PANORAMIC,
     CAMERA_SPHERICAL,
+    CAMERA_OMNIMAX,
+    CAMERA_CYLINDER_1, // a cylinder upright or lying, seen from its axis: from one point …
+    CAMERA_CYLINDER_2,
+    CAMERA_CYLINDER_3, // … or from one that moves along it
+    CAMERA_CYLINDER_4,
     CAMERA_TYPES
 } CameraType;
+
+// Whether rays start elsewhere than at one place.
+static inline bool camera_type_moves(CameraType type)
+{
+    return type == CAMERA_ORTHOGRAPHIC || type == CAMERA_CYLINDER_3 || type == CAMERA_CYLINDER_4;
+}
 
 // A pixel at (u, v), each from -1/2 (left, top) to 1/2 (right, bottom), looks
 //   perspective:   from location along direction + u right - v up
@@ -43,7 +56,8 @@ typedef struct Camera {
     CameraType type;
     Vec3 location, direction, right, up;
     double angle,
-        angle_vertical;    // in degrees; of a fisheye, an ultra wide angle and a spherical camera; of the last, both
+        angle_vertical;    // in degrees; of a fisheye, an ultra wide angle, a spherical camera and a cylinder; the
+                           // second of a spherical one
     double lens_radius;    // 0: a point; else rays start on a disc around the location, across the direction …
     double focal_distance; // … and meet those of the same (u, v) at this distance, > 0
     int blur_samples;      // rays a pixel where nothing else is said; with a lens >= 1
@@ -98,6 +112,8 @@ typedef struct Finish {
     double reflection_exponent;         // of the reflected light, 1 if nothing was said
     double reflection_metallic;
     double refraction; // share of what is let through that continues, 1 if nothing was said
+    double crand;      // how far the light of a surface is less by chance, from place to place; <= 0: not
+    double irid, irid_thickness, irid_turbulence; // how much colours of a thin layer count, <= 0: not at all
     uint64_t flags;    // FINISH_…
 } Finish;
 
@@ -369,6 +385,12 @@ typedef struct Fog {
     double offset, alt; // is_ground: heights along `up`; the density is halved at offset + alt; alt > 0
     Vec3 up;            // of unit length
     Rgbft colour;
+    bool is_turbulent;
+    double turb_depth;
+    Vec3 turbulence; // of places from …
+    Vec3 origin;     // … there
+    double lambda, omega;
+    int octaves;
     Span span;
 } Fog;
 
@@ -395,6 +417,7 @@ typedef struct Settings {
     double adc_bailout;
     int noise_generator; // 1 to 3, 0: that of the version
     int number_of_waves; // of the patterns `ripples` and `waves`, >= 1
+    Rgb irid_wavelength; // of red, green and blue, in the thickness's unit
     Rgb sky_light; // from all sides; black: none. Of the run, not of the language
     double version; // the language version in force at the end, SCENE_VERSION_UNSAID if none was given
 } Settings;
@@ -430,6 +453,8 @@ typedef struct Scene {
     ARRAY(Material) materials; // each different one once, or nearly so, see scene_add_material_record
     ARRAY(PigmentEntry) pigment_entries; // of these nine, too, each different one once
     ARRAY(PatternedPigment) patterns;
+    ARRAY(FormulaStep) formula_steps; // likewise
+    ARRAY(Warp) warps;                // likewise
     ARRAY(PictureSource) picture_sources; // and these three
     ARRAY(PictureShade) picture_shades;
     ARRAY(ImageMap) image_maps;
@@ -460,7 +485,7 @@ typedef struct Scene {
     uint32_t shape_count; // spheres, planes, composites and parts that stand alone
     UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, slope_entry_index, normal_entry_index,
         normal_index, texture_entry_index, texture_index, interior_index, compound_index, picture_source_index,
-        picture_shade_index, image_map_index;
+        picture_shade_index, image_map_index, formula_step_index, warp_index;
 } Scene;
 
 // An empty scene with the language's defaults. Nothing is allocated.
@@ -505,6 +530,8 @@ static inline bool scene_is_hollow(const Scene *scene, MaterialIndex material)
 bool scene_add_finish(Scene *scene, const Finish *finish, FinishIndex *index) RT_MUST_CHECK;
 bool scene_add_pigment_entry(Scene *scene, const PigmentEntry *entry, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_pattern(Scene *scene, const PatternedPigment *pattern, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_formula_step(Scene *scene, const FormulaStep *step, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_warp(Scene *scene, const Warp *warp, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_picture_shade(Scene *scene, const PictureShade *shade, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_image_map(Scene *scene, const ImageMap *map, uint32_t *index) RT_MUST_CHECK;
 // A picture that is not loaded yet.

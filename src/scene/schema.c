@@ -59,6 +59,10 @@ static const SchemaProperty pattern_modifiers[] = {
     {"cells", TYPE_ACTION, ACTION_PATTERN, .doc = "unit cubes, each with a value of its own"},
     {"crackle", TYPE_ACTION, ACTION_PATTERN, .doc = "cells around one point in each unit cube"},
     {"spiral1", TYPE_ACTION, ACTION_PATTERN, .doc = "so many arms that wind around z"},
+    {"spiral2", TYPE_ACTION, ACTION_PATTERN, .doc = "so many arms that wind around z, to both sides"},
+    {"function", TYPE_ACTION, ACTION_FUNCTION, .doc = "`{ … }` of x, y and z: what it gives there"},
+    {"pigment_pattern", TYPE_BLOCK, ACTION_PATTERN, .doc = "`{ pigment }`: how bright its colour is"},
+    {"warp", TYPE_BLOCK, ACTION_WARP, .doc = "`{ … }`: bends space, as transforms do in the order in which they stand"},
     {"mandel", TYPE_ACTION, ACTION_PATTERN, .doc = "the Mandelbrot set in x and y, after so many steps"},
     {"julia", TYPE_ACTION, ACTION_PATTERN, .doc = "the Julia set of a complex number, after so many steps"},
     {"quilted", TYPE_ACTION, ACTION_PATTERN, .doc = "a cushion in each unit cube"},
@@ -122,6 +126,10 @@ static const SchemaProperty camera_properties[] = {
      .doc = "half a turn from left to right; heights as on a cylinder"},
     {"spherical", TYPE_FLAG, AT(CameraDesc, types[CAMERA_SPHERICAL]), .is_first = true,
      .doc = "longitude, latitude; `angle` across, then upright: 360 and half of it"},
+    {"omnimax", TYPE_FLAG, AT(CameraDesc, types[CAMERA_OMNIMAX]), .is_first = true,
+     .doc = "of a dome: half a turn across, cut below; black outside of it"},
+    {"cylinder", TYPE_ACTION, ACTION_CYLINDER, .is_first = true,
+     .doc = "1, 3: an upright one; 2, 4: a lying one; `angle` around, 90"},
     {"location", TYPE_VECTOR, AT(CameraDesc, location), .doc = "where the eye is"},
     {"direction", TYPE_VECTOR, AT(CameraDesc, direction), .doc = "from the eye to the middle of the picture"},
     {"right", TYPE_VECTOR, AT(CameraDesc, right), GIVEN(CameraDesc, has_right),
@@ -393,15 +401,19 @@ static const SchemaProperty fog_properties[] = {
      .doc = "type 2: the height up to which it is as dense as anywhere"},
     {"fog_alt", TYPE_NUMBER, AT(FogDesc, alt), .doc = "type 2: how far above that it is half as dense; more than 0"},
     {"up", TYPE_VECTOR, AT(FogDesc, up), .doc = "type 2: the direction of height, of any length but 0"},
-    {"turb_depth", TYPE_NUMBER, AT(FogDesc, turb_depth),
-     .doc = "how uneven turbulence makes the fog; with one of the next four only 0"},
-    {"turbulence", TYPE_ACTION, ACTION_TURBULENCE, .doc = "makes the fog turbulent, 0 too: only with `turb_depth 0`"},
-    {"omega", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
-    {"lambda", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
-    {"octaves", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
+    {"turb_depth", TYPE_NUMBER, AT(FogDesc, turb_depth), .doc = "how much thinner turbulence makes the fog; 0: not"},
+    {"turbulence", TYPE_VECTOR, AT(FogDesc, turbulence), GIVEN(FogDesc, is_turbulent),
+     .doc = "makes the fog uneven: how fine, in x, y and z; 0 makes it thinner evenly"},
+    {"omega", TYPE_NUMBER, AT(FogDesc, omega), GIVEN(FogDesc, is_turbulent),
+     .doc = "of turbulence: how much weaker each octave is"},
+    {"lambda", TYPE_NUMBER, AT(FogDesc, lambda), GIVEN(FogDesc, is_turbulent),
+     .doc = "of turbulence: how much finer each octave is"},
+    {"octaves", TYPE_INTEGER, AT(FogDesc, octaves), GIVEN(FogDesc, is_turbulent), .range = {RANGE_CLAMP, false, 1.0, 10.0},
+     .doc = "of turbulence: noises added up"},
 };
 
-static const FogDesc fog_defaults = {.transform = IDENTITY, .type = 1, .up = {0, 1, 0}, .turb_depth = 0.5};
+static const FogDesc fog_defaults = {.transform = IDENTITY, .type = 1, .up = {0, 1, 0}, .turb_depth = 0.5,
+                                     .lambda = 2.0, .omega = 0.5, .octaves = 6};
 
 static const SchemaProperty settings_properties[] = {
     {"assumed_gamma", TYPE_ACTION, ACTION_ASSUMED_GAMMA,
@@ -416,6 +428,9 @@ static const SchemaProperty settings_properties[] = {
     {"number_of_waves", TYPE_INTEGER, AT(SettingsDesc, number_of_waves),
      .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of waves"},
     {"charset", TYPE_ACTION, ACTION_CHARSET, .doc = "how the bytes of strings are read: `ascii`, `utf8` or `sys`"},
+    {"irid_wavelength", TYPE_RGB, AT(SettingsDesc, irid_wavelength),
+     .doc = "of light, in the unit of the thickness of `irid`"},
+    {"hf_gray_16", TYPE_SWITCH, AT(SettingsDesc, is_ignored), .doc = "accepted; changes no picture"},
     {"max_intersections", TYPE_NUMBER, AT(SettingsDesc, ignored), .doc = "accepted; changes no picture"},
     {"mm_per_unit", TYPE_NUMBER, AT(SettingsDesc, ignored), .doc = "accepted; changes no picture"},
 };
@@ -425,6 +440,7 @@ static const SettingsDesc settings_defaults = {
     .adc_bailout = 1.0 / 255.0,
     .max_trace_level = 5,
     .number_of_waves = SETTINGS_WAVES,
+    .irid_wavelength = {(double)0.70f, (double)0.52f, (double)0.48f},
 };
 
 #define AVERAGE {"average", TYPE_ACTION, ACTION_PATTERN, .doc = "all entries of the map at once, by their weights"}
@@ -434,6 +450,7 @@ static const SchemaProperty texture_properties[] = {
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
     {"texture_map", TYPE_BLOCK, ACTION_MAP, .doc = "textures along a pattern of values"},
+    {"tiles", TYPE_BLOCK, ACTION_TILES, .doc = "old: `{ textures tile2 textures }`, `checker` of the second and the first"},
     {"no_bump_scale", TYPE_FLAG, AT(TextureDesc, keeps_length),
      .doc = "the depth of its bumps is not scaled with it; not for a pattern of textures"},
 };
@@ -465,6 +482,34 @@ static const SchemaProperty pigment_properties[] = {
     {"image_map", TYPE_BLOCK, ACTION_IMAGE_MAP, .doc = "the colours of a picture"},
     {"quick_color", TYPE_COLOUR, AT(PigmentDesc, quick_colour), .doc = "accepted; changes no picture"},
     {"quick_colour", TYPE_COLOUR, AT(PigmentDesc, quick_colour), .doc = "accepted; changes no picture"},
+};
+
+#define WARP_AT(field) .at = (uint16_t)offsetof(WarpDesc, warp.field)
+
+static const SchemaProperty warp_properties[] = {
+    {"turbulence", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector: moves each point by noise, so much"},
+    {"octaves", TYPE_INTEGER, WARP_AT(octaves), .range = {RANGE_CLAMP, false, 1.0, 10.0}, .doc = "of turbulence: noises added up"},
+    {"lambda", TYPE_NUMBER, WARP_AT(lambda), .doc = "of turbulence: how much finer each octave is"},
+    {"omega", TYPE_NUMBER, WARP_AT(omega), .doc = "of turbulence: how much weaker each octave is"},
+    {"repeat", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector along x, y or z: the slice so wide again and again"},
+    {"offset", TYPE_VECTOR, WARP_AT(offset), .doc = "of `repeat`: each slice from the one before"},
+    {"flip", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "of `repeat`: every other slice is turned where this is not 0"},
+    {"black_hole", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then its middle and its radius: draws points to its middle"},
+    {"strength", TYPE_NUMBER, WARP_AT(strength), .doc = "of `black_hole`"},
+    {"falloff", TYPE_NUMBER, WARP_AT(power), .doc = "of `black_hole`: exponent of the nearness to its middle"},
+    {"inverse", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "of `black_hole`: throws points out of it instead"},
+    {"planar", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "x and y are laid on a plane: its normal and distance may follow"},
+    {"cylindrical", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "x and y are laid around a cylinder"},
+    {"spherical", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "x and y are laid around a sphere"},
+    {"toroidal", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "x and y are laid around a torus"},
+    {"orientation", TYPE_VECTOR, WARP_AT(vector), .doc = "of these: the axis"},
+    {"dist_exp", TYPE_NUMBER, WARP_AT(exponent), .doc = "of these: exponent of the distance, 0"},
+    {"major_radius", TYPE_NUMBER, WARP_AT(radius), .doc = "of `toroidal`: of its ring"},
+};
+
+static const WarpDesc warp_defaults = {
+    .warp = {.to_outside = IDENTITY, .vector = {0, 0, 1}, .radius = 1.0, .strength = 1.0, .power = 2.0, .lambda = 2.0,
+             .omega = 0.5, .octaves = 6, .next = RECORD_NONE},
 };
 
 #define FILE_TYPE(word, text) {word, TYPE_ACTION, ACTION_IMAGE, .is_first = true, .doc = text}
@@ -515,8 +560,19 @@ static const SchemaProperty finish_properties[] = {
      .doc = "old: share of the light let through that continues"},
     {"ior", TYPE_NUMBER, AT(FinishDesc, ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "old: the `ior` of the interior; 0: as the interior says"},
+    {"crand", TYPE_NUMBER, FINISH_AT(crand), .doc = "scattered light is less by chance, by up to so much, from place to place"},
+    {"irid", TYPE_BLOCK, ACTION_IRID, .doc = "`{ amount … }`: colours of a thin layer, which change with the angle"},
     {"conserve_energy", TYPE_FLAG, AT(FinishDesc, conserve_energy),
      .doc = "what is let through loses what is reflected"},
+};
+
+static const SchemaProperty irid_arguments[] = {
+    {"amount", TYPE_NUMBER, FINISH_AT(irid), .doc = "how much they count; 0: not at all"},
+};
+
+static const SchemaProperty irid_properties[] = {
+    {"thickness", TYPE_NUMBER, FINISH_AT(irid_thickness), .doc = "of the layer"},
+    {"turbulence", TYPE_NUMBER, FINISH_AT(irid_turbulence), .doc = "how uneven it is"},
 };
 
 static const SchemaProperty reflection_arguments[] = {
@@ -973,6 +1029,13 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                          .arguments = LIST(reflection_arguments),
                          .groups = {LIST(reflection_properties)},
                          .doc = "In a finish: the mirror."},
+    [KIND_IRID] = {.word = "irid",
+                   .what = "an irid",
+                   .size = sizeof(FinishDesc),
+                   .defaults = &finish_defaults,
+                   .arguments = LIST(irid_arguments),
+                   .groups = {LIST(irid_properties)},
+                   .doc = "In a finish: the colours of a thin layer."},
     [KIND_TRANSFORM] = {.word = "transform",
                         .what = "a transform",
                         .size = sizeof(TransformDesc),
@@ -980,6 +1043,12 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                         .is_declarable = true,
                         .groups = {LIST(transform_properties), TRANSFORMS},
                         .doc = "Transforms in the order in which they are written."},
+    [KIND_WARP] = {.word = "warp",
+                   .what = "a warp",
+                   .size = sizeof(WarpDesc),
+                   .defaults = &warp_defaults,
+                   .groups = {LIST(warp_properties)},
+                   .doc = "In what has a pattern: one of `turbulence`, `repeat`, `black_hole` and the mappings."},
     [KIND_PATTERN] = {.word = "pattern",
                       .what = "a pattern",
                       .size = sizeof(PatternPart),
@@ -1008,14 +1077,12 @@ static const SchemaUnsupported unsupported[] = {
     {"sor", true, NULL, NULL},
     {"sphere_sweep", true, "use a `union` of spheres", NULL},
     {"superellipsoid", true, "use a sphere with `scale`", NULL},
-    {"cylinder", false, "a `panoramic` camera is near", NULL},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},
     {"iff", false, "save the picture as PNG", NULL},
     {"sys", false, "POV-Ray does not read it here either: save the picture as PNG", NULL},
     {"use_index", false, NULL, NULL},
     {"dispersion", false, NULL, "the colours into which glass parts light"},
-    {"irid", false, NULL, "the colours of thin layers"},
     {"photons", false, NULL, "light that mirrors and lenses gather"},
     {"radiosity", false, NULL, "light that surfaces throw on one another"},
     {"subsurface", false, NULL, "light that comes back from below a surface"},

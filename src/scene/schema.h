@@ -65,6 +65,8 @@ typedef enum SchemaKind {
     KIND_BLOB_ROD,
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
+    KIND_WARP,
+    KIND_IRID, // the braces of `irid`; written into a finish
     KIND_PATTERN, // of a function
     KIND_UNSUPPORTED, // declared, but of a kind or with a property that rtlang has not
     KIND_COUNT
@@ -120,7 +122,12 @@ typedef enum SchemaAction {
     ACTION_AREA_LIGHT,
     ACTION_ASSUMED_GAMMA,
     ACTION_SKY_LAYER,
-    ACTION_TURBULENCE,
+    ACTION_WARP,
+    ACTION_TILES,
+    ACTION_WARP_TYPE,
+    ACTION_FUNCTION,
+    ACTION_IRID,
+    ACTION_CYLINDER,
     ACTION_CHARSET,
     ACTION_NOISE_GENERATOR,
     ACTION_COUNT

@@ -57,7 +57,8 @@ static bool finish_is_finite(const Finish *finish)
            isfinite(finish->phong_size) && isfinite(finish->specular) && isfinite(finish->roughness) &&
            isfinite(finish->metallic) && rgb_is_finite(finish->reflection_min) &&
            rgb_is_finite(finish->reflection_max) && isfinite(finish->reflection_falloff) &&
-           isfinite(finish->reflection_exponent) && isfinite(finish->reflection_metallic);
+           isfinite(finish->reflection_exponent) && isfinite(finish->reflection_metallic) && isfinite(finish->crand) &&
+           isfinite(finish->irid) && isfinite(finish->irid_thickness) && isfinite(finish->irid_turbulence);
 }
 
 // Records that are looked at in runs, on several threads.

@@ -6,6 +6,8 @@
 //     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth, objects,
 //                              text_bytes, message_bytes or string_bytes
 //     -- declare N 5           a number declared before the scene begins, as with -D
+//     -- writes                files may be written, as with --allow-write=.
+//     -- written x.txt         a file that the program has written
 //     -- lenient               what rtlang has not is left out, as with --lenient
 //     -- warning all           which warnings are told, as after -W; may repeat
 //     -- validate              the scene as a whole is looked at, too, as before it is traced
@@ -43,7 +45,7 @@ typedef struct Case {
 } Case;
 
 typedef struct Outcome {
-    TextBuffer debug, scene, diagnostics, faults;
+    TextBuffer debug, scene, diagnostics, faults, written;
 } Outcome;
 
 static void must(bool condition, const char *what)
@@ -257,6 +259,8 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
         .declaration_count = read_declarations(test, declared_names, declarations),
         .image_width = 320,
         .image_height = 240,
+        .write_folders = (const char *const[]){"."},
+        .write_folder_count = wants(test, "writes"),
         .is_lenient = wants(test, "lenient"),
         .tracer = &probe_tracer,
         .painter = &painter,
@@ -283,6 +287,19 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     source_map_free(sources);
 }
 
+static void take_written(const Case *test, Outcome *outcome)
+{
+    for (size_t i = 1; i < test->count; i++) {
+        const char *header = test->sections[i].header;
+        if (strncmp(header, "written ", 8) == 0) {
+            char *text = read_file(header + 8);
+            text_append(&outcome->written, text);
+            free(text);
+            must(remove(header + 8) == 0, header);
+        }
+    }
+}
+
 static void run(const Case *test, Outcome *outcome)
 {
     Limits limits = LIMITS_DEFAULT;
@@ -290,8 +307,10 @@ static void run(const Case *test, Outcome *outcome)
     text_init(&outcome->scene);
     text_init(&outcome->diagnostics);
     text_init(&outcome->faults);
+    text_init(&outcome->written);
     prepare(test, &limits, false);
     evaluate(test, &limits, outcome);
+    take_written(test, outcome);
     prepare(test, &limits, true);
 }
 
@@ -301,6 +320,7 @@ static void outcome_fini(Outcome *outcome)
     text_fini(&outcome->scene);
     text_fini(&outcome->diagnostics);
     text_fini(&outcome->faults);
+    text_fini(&outcome->written);
 }
 
 static const TextBuffer *outcome_of(const Outcome *outcome, const char *header)
@@ -309,6 +329,7 @@ static const TextBuffer *outcome_of(const Outcome *outcome, const char *header)
            : strcmp(header, "scene") == 0       ? &outcome->scene
            : strcmp(header, "diagnostics") == 0 ? &outcome->diagnostics
            : strcmp(header, "faults") == 0      ? &outcome->faults
+           : strncmp(header, "written ", 8) == 0 ? &outcome->written
                                                 : NULL;
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Area lights with `jitter` beside POV-Ray's, as samples of one distribution: each column of a picture of a half shadow whose edge is
+"""Area lights with `jitter`, and `crand`, beside POV-Ray's, as samples of one distribution: each column of a picture of a half shadow whose edge is
 upright has rows that are equal but for chance, so the means of both programs' columns are compared by a z-test.
 
 The same test rejects a light without jitter, so it can tell. A scene with shapes is held by chance.py, which
@@ -62,6 +62,31 @@ def judge_shapes(tap, folder):
         tap.ok(not apart["like"], f"shapes, {name}, the light moved by a twentieth: {chance.words(apart)}")
 
 
+GRAIN = """#version 3.7; global_settings { assumed_gamma 1 }
+camera { location <0, 2, -8> right x*4/3 angle 45 look_at 0 }
+light_source { <-4, 8, -6>, rgb 0.8 }
+light_source { <6, 3, -9>, rgb <0.3, 0.4, 0.5> }
+plane { y, -1 pigment { rgb 0.9 } finish { ambient 0.1 diffuse 0.8 crand %s } }
+sphere { <0, 0, 0>, 1 pigment { rgb <1, 0.4, 0.2> } finish { diffuse 0.7 brilliance 1.5 phong 0.4 crand 0.2 } }
+sphere { <2, 0, 0>, 0.9 texture { gradient y texture_map { [0 pigment { rgb 0.7 } finish { crand 0.4 }] [1 pigment { rgb 0.4 }] } } }
+"""
+
+
+def judge_grain(tap, folder):
+    """`crand`: like POV-Ray's, and told apart when it is a tenth more."""
+    scene = os.path.join(folder, "grain.pov")
+    draws = {}
+    for amount in 0.3, 0.33:
+        with open(scene, "w", encoding="ascii") as out:
+            out.write(GRAIN % amount)
+        draws[amount] = chance.draw_rtlang(scene, folder, [], SHAPES_SIZE)
+        if amount == 0.3:
+            theirs = chance.draw_povray(scene, folder, [], SHAPES_SIZE)
+    like, apart = chance.judge(draws[0.3], theirs), chance.judge(draws[0.33], theirs)
+    tap.ok(like["like"] and like["loose"] >= 40, f"crand: {chance.words(like)}")
+    tap.ok(not apart["like"], f"crand, a tenth more: {chance.words(apart)}")
+
+
 def columns(path):
     """[(mean, variance of the mean)] of the columns, in shares of light."""
     width, height, values = pictures.read_png(path)
@@ -110,6 +135,7 @@ def main():
             still = scores(render(pictures.render_rtlang, SCENE % light.replace("jitter", ""), folder), theirs)
             tap.ok(not is_like(still), f"{name}: without jitter it is told apart: {words(still)}")
         judge_shapes(tap, folder)
+        judge_grain(tap, folder)
     return tap.done()
 
 

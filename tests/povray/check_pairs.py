@@ -37,6 +37,12 @@ LEFT_OUT = {
     " tests/povray/image_*.scn have them",
     "bumps spotted dents ripples waves wrinkles noise_generator number_of_waves turb_depth": "tests/povray/*.scn have"
     " them",
+    "crand": "random in both; check_jitter.py asks POV-Ray",
+    "hf_gray_16 irid_wavelength irid thickness": "tests/povray/finish_irid*.scn have them",
+    "omnimax cylinder": "tests/povray/camera_*.scn have them",
+    "function pigment_pattern spiral2 warp repeat flip black_hole strength orientation dist_exp major_radius toroidal":
+    "tests/povray/pattern_*.scn and warp_*.scn have them",
+    "tiles": "tests/povray/texture_tiles*.scn have them",
     "perspective split_union": "on unless something else is said; tests/povray/*.scn have them",
     "camera light_source sphere global_settings declare": "in every scene",
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How much of POV-Ray's own example scenes rtlang accepts, and what stands in the way of the others.
 
-Each scene is read by `rtlang --check` in a copy of its folder, with POV-Ray's include files. Printed are a line a
+Each scene is read by `rtlang --check` in a copy of its folder, in which it may write, with POV-Ray's include files. Printed are a line a
 scene, the blockers by how many scenes they are the first or any of, and a plan: what to add next to unlock most scenes.
 With --render what is accepted is rendered by both programs (rtcheck) and the differences are summed up; with --times it
 is drawn by both in turns, one scene at a time, and their processor seconds are compared.
@@ -169,10 +169,23 @@ def needs_of_text(path, seen, known):
     return needs
 
 
+def of_animation(path):
+    """What makes a scene the first frame of the animation that the .ini of its name is for."""
+    settings = path.removesuffix(".pov") + ".ini"
+    if not os.path.isfile(settings):
+        return []
+    with open(settings, encoding="latin-1") as file:
+        text = file.read()
+    first = re.search(r"^\s*Initial_Frame\s*=\s*(\d+)", text, re.MULTILINE | re.IGNORECASE)
+    is_animation = re.search(r"^\s*Final_Frame\s*=", text, re.MULTILINE | re.IGNORECASE)
+    return [f"-Dframe_number={first.group(1) if first else 1}"] if is_animation else []
+
+
 def read(scene, options, folders, known):
     """One scene's record: name, outcome, blockers in the order in which they were met."""
     name, path = scene
-    command = [os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", *(f"-I{place}" for place in folders)]
+    command = [os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", "--allow-write=.", *of_animation(path),
+               *(f"-I{place}" for place in folders)]
     record = {"scene": name, "path": path, "outcome": "accepted", "blockers": [], "needs": [], "where": None}
     done = call(command, path, options.timeout)
     status, _, messages = done or (0, "", "")

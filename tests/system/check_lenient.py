@@ -21,14 +21,14 @@ global_settings { assumed_gamma 1 [[radiosity { count 50 }]] [[photons { spacing
 camera { location <0, 1, -5> look_at 0 }
 light_source { <5, 5, -5> rgb 1 [[photons { reflection on }]] }
 [[media { emission 0.1 }]]
-#declare Metal = finish { [[irid { 0.3 thickness 0.2 }]] phong 0.5 reflection 0.2 };
+#declare Metal = finish { [[subsurface { translucency 0.3 }]] phong 0.5 reflection 0.2 };
 #declare Skin = texture { pigment { rgb <0.8, 0.3, 0.2> } finish { Metal } };
 union { [[lathe { 2, 0.1 }]] sphere { <-1, 0, 0>, 1 } sphere { <1, 0, 0>, 1 } texture { Skin } }
 sphere { <0, 1, -1>, 0.4 pigment { rgbt 0.8 } interior { ior 1.4 [[media { absorption 1 }]] [[dispersion 1.1]] } }
 [[julia_fractal { 0 }]]
 #declare Unused = superellipsoid { <0.5, 0.5> };
 """
-WARNING = ("drawn without radiosity in global_settings, photons in global_settings, media, lathe, irid in finish, "
+WARNING = ("drawn without radiosity in global_settings, photons in global_settings, media, lathe, subsurface in finish, "
            "dispersion in interior, julia_fractal")
 
 

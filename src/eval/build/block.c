@@ -1,8 +1,8 @@
 // The generic evaluator of blocks: `word { … }` becomes a description, as the schema says.
 //
 // Takes a leading identifier or the positional arguments, then the properties, each by its type or by the action that
-// the table names. Whatever does not fit is a located fault and is passed over, so that one run reports all faults. Knows
-// nothing of what a property means.
+// the table names. Whatever does not fit is a located fault and is passed over, so that one run reports all faults.
+// Knows nothing of what a property means.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -17,37 +17,64 @@ typedef bool (*BlockAction)(Block *block, const SchemaProperty *property, const 
 typedef bool (*BlockHook)(Block *block);
 
 static const BlockAction actions[ACTION_COUNT] = {
-    [ACTION_TRANSLATE] = transform_action,    [ACTION_ROTATE] = transform_action,
-    [ACTION_SCALE] = transform_action,        [ACTION_MATRIX] = transform_action,
-    [ACTION_TRANSFORM] = transform_action,    [ACTION_TEXTURE] = texture_action,
-    [ACTION_PIGMENT] = texture_action,        [ACTION_FINISH] = texture_action,
-    [ACTION_NORMAL] = texture_action,         [ACTION_PATTERN] = pattern_action,
-    [ACTION_WAVE] = pattern_wave_action,      [ACTION_PATTERN_SOLID] = pattern_solid_action,
-    [ACTION_MAP] = pattern_map_action,        [ACTION_INTERIOR] = interior_action,
-    [ACTION_MATERIAL] = material_action,      [ACTION_IMAGE_MAP] = image_map_action,
+    [ACTION_TRANSLATE] = transform_action,
+    [ACTION_ROTATE] = transform_action,
+    [ACTION_SCALE] = transform_action,
+    [ACTION_MATRIX] = transform_action,
+    [ACTION_TRANSFORM] = transform_action,
+    [ACTION_TEXTURE] = texture_action,
+    [ACTION_PIGMENT] = texture_action,
+    [ACTION_FINISH] = texture_action,
+    [ACTION_NORMAL] = texture_action,
+    [ACTION_PATTERN] = pattern_action,
+    [ACTION_WAVE] = pattern_wave_action,
+    [ACTION_PATTERN_SOLID] = pattern_solid_action,
+    [ACTION_MAP] = pattern_map_action,
+    [ACTION_INTERIOR] = interior_action,
+    [ACTION_MATERIAL] = material_action,
+    [ACTION_IMAGE_MAP] = image_map_action,
     [ACTION_IMAGE] = image_action,
-    [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
+    [ACTION_REFLECTION] = reflection_action,
+    [ACTION_ANGLE] = camera_angle_action,
     [ACTION_LOOK_AT] = camera_look_at_action,
     [ACTION_BLUR_SAMPLES] = camera_blur_action,
-    [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
-    [ACTION_CLIP] = clip_action, [ACTION_BLOB_PART] = blob_part_action,              [ACTION_INVERSE] = inverse_action,
-    [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
-    [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
+    [ACTION_POINT_AT] = light_point_at_action,
+    [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
+    [ACTION_CLIP] = clip_action,
+    [ACTION_BLOB_PART] = blob_part_action,
+    [ACTION_INVERSE] = inverse_action,
+    [ACTION_LIGHT_TYPE] = light_type_action,
+    [ACTION_CONE] = light_cone_action,
+    [ACTION_SKY_LAYER] = sky_layer_action,
+    [ACTION_WARP] = warp_action,
+    [ACTION_TILES] = tiles_action,
+
+    [ACTION_WARP_TYPE] = warp_type_action,
+    [ACTION_FUNCTION] = pattern_function_action,
+    [ACTION_IRID] = finish_irid_action,
+    [ACTION_CYLINDER] = camera_cylinder_action,
     [ACTION_CHARSET] = settings_charset_action,
     [ACTION_NOISE_GENERATOR] = settings_generator_action,
-    [ACTION_AREA_LIGHT] = light_area_action,     [ACTION_SHADOWLESS] = light_shadowless_action,
+    [ACTION_AREA_LIGHT] = light_area_action,
+    [ACTION_SHADOWLESS] = light_shadowless_action,
     [ACTION_LOOKS_LIKE] = light_look_action,
 };
 
 // Between the arguments and the properties.
 static const BlockHook bodies[KIND_COUNT] = {
-    [KIND_UNION] = object_members,        [KIND_MERGE] = object_members,   [KIND_INTERSECTION] = object_members,
-    [KIND_DIFFERENCE] = object_members,   [KIND_OBJECT] = object_body,     [KIND_CLIPPED_BY] = clip_body,
-    [KIND_BOUNDED_BY] = clip_body,        [KIND_LOOKS_LIKE] = object_body,
+    [KIND_UNION] = object_members,
+    [KIND_MERGE] = object_members,
+    [KIND_INTERSECTION] = object_members,
+    [KIND_DIFFERENCE] = object_members,
+    [KIND_OBJECT] = object_body,
+    [KIND_CLIPPED_BY] = clip_body,
+    [KIND_BOUNDED_BY] = clip_body,
+    [KIND_LOOKS_LIKE] = object_body,
     [KIND_TEXT] = text_body,
     [KIND_PRISM] = prism_body,
     [KIND_POLYGON] = polygon_body,
-    [KIND_MESH] = mesh_body,              [KIND_MESH2] = mesh2_body,
+    [KIND_MESH] = mesh_body,
+    [KIND_MESH2] = mesh2_body,
     [KIND_COLOUR_MAP] = pattern_map_body,
     [KIND_PIGMENT_MAP] = pattern_map_body,
     [KIND_TEXTURE_MAP] = pattern_map_body,
@@ -58,14 +85,25 @@ static const BlockHook bodies[KIND_COUNT] = {
 
 // At the closing brace.
 static const BlockHook closings[KIND_COUNT] = {
-    [KIND_CAMERA] = camera_close,       [KIND_UNION] = union_close,
-    [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
-    [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
+    [KIND_CAMERA] = camera_close,
+    [KIND_UNION] = union_close,
+    [KIND_MERGE] = union_close,
+    [KIND_INTERSECTION] = union_close,
+    [KIND_DIFFERENCE] = union_close,
+    [KIND_FINISH] = finish_close,
+    [KIND_REFLECTION] = reflection_close,
+    [KIND_TRANSFORM] = transform_close,
     [KIND_PATTERN] = pattern_close,
-    [KIND_MESH] = mesh_close, [KIND_MESH2] = mesh_close,
-    [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
-    [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close, [KIND_NORMAL] = normal_close,
-    [KIND_IMAGE_MAP] = image_close, [KIND_LIGHT_SOURCE] = light_close,
+    [KIND_WARP] = warp_close,
+    [KIND_MESH] = mesh_close,
+    [KIND_MESH2] = mesh_close,
+    [KIND_SKY_SPHERE] = sky_close,
+    [KIND_FOG] = fog_close,
+    [KIND_TEXTURE] = pattern_close,
+    [KIND_PIGMENT] = pattern_close,
+    [KIND_NORMAL] = normal_close,
+    [KIND_IMAGE_MAP] = image_close,
+    [KIND_LIGHT_SOURCE] = light_close,
 };
 
 SchemaKind block_kind(const Eval *ev, const AstNode *node)
@@ -91,18 +129,28 @@ void block_defaults(const Eval *ev, SchemaKind kind, Desc *record)
     const Settings *settings = &ev->scene->settings;
     memcpy(record, schema->defaults, schema->size);
     switch (kind) {
-    case KIND_TEXTURE: record->texture = *ev->objects->defaults; break;
-    case KIND_PIGMENT: record->pigment = ev->objects->defaults->pigment; break;
-    case KIND_NORMAL: record->normal = ev->objects->defaults->normal; break;
-    case KIND_FINISH: record->finish.finish = ev->objects->defaults->finish; break;
+    case KIND_TEXTURE:
+        record->texture = *ev->objects->defaults;
+        break;
+    case KIND_PIGMENT:
+        record->pigment = ev->objects->defaults->pigment;
+        break;
+    case KIND_NORMAL:
+        record->normal = ev->objects->defaults->normal;
+        break;
+    case KIND_FINISH:
+        record->finish.finish = ev->objects->defaults->finish;
+        break;
     case KIND_GLOBAL_SETTINGS:
         record->settings.ambient_light = settings->ambient_light;
         record->settings.adc_bailout = settings->adc_bailout;
         record->settings.max_trace_level = settings->max_trace_level;
         record->settings.noise_generator = settings->noise_generator;
         record->settings.number_of_waves = settings->number_of_waves;
+        record->settings.irid_wavelength = settings->irid_wavelength;
         break;
-    default: break;
+    default:
+        break;
     }
 }
 
@@ -263,7 +311,8 @@ static bool read_typed(Block *block, const SchemaProperty *property, void *at)
 {
     switch (property->type) {
     case TYPE_FLAG:
-    case TYPE_SWITCH: return read_switch(block, property, at);
+    case TYPE_SWITCH:
+        return read_switch(block, property, at);
     case TYPE_OPTIONAL_NUMBER:
         if (!at_expression(block)) {
             memcpy(at, &property->bare, sizeof property->bare);
@@ -275,16 +324,24 @@ static bool read_typed(Block *block, const SchemaProperty *property, void *at)
                                property->word);
         }
         return read_number(block, property, at);
-    case TYPE_NUMBER: return read_number(block, property, at);
+    case TYPE_NUMBER:
+        return read_number(block, property, at);
     case TYPE_SHARE:
-    case TYPE_SHARE_PAIR: return read_share(block, property, at);
-    case TYPE_INTEGER: return read_integer(block, property, at);
-    case TYPE_VECTOR: return read_vector(block, property, at);
-    case TYPE_NUMBERS: return read_numbers(block, property, at);
-    case TYPE_COLOUR: return read_colour(block, property, at);
-    case TYPE_RGB: return read_rgb(block, property, at);
+    case TYPE_SHARE_PAIR:
+        return read_share(block, property, at);
+    case TYPE_INTEGER:
+        return read_integer(block, property, at);
+    case TYPE_VECTOR:
+        return read_vector(block, property, at);
+    case TYPE_NUMBERS:
+        return read_numbers(block, property, at);
+    case TYPE_COLOUR:
+        return read_colour(block, property, at);
+    case TYPE_RGB:
+        return read_rgb(block, property, at);
     case TYPE_BLOCK:
-    case TYPE_ACTION: break; // never read by type
+    case TYPE_ACTION:
+        break; // never read by type
     }
     return false;
 }
@@ -347,10 +404,12 @@ static bool is_declared(const Eval *ev, const AstNode *name)
 
 static const SchemaProperty *find_property(const Block *block, const AstNode *item)
 {
-    if ((item->kind != AST_WORD && item->kind != AST_BLOCK) || item->symbol >= WORD_COUNT) {
+    Symbol word = item->kind == AST_FUNCTION ? (Symbol)W_function : item->symbol;
+    bool is_word = item->kind == AST_WORD || item->kind == AST_BLOCK || item->kind == AST_FUNCTION;
+    if (!is_word || word >= WORD_COUNT) {
         return NULL;
     }
-    unsigned place = block->ev->objects->properties[block->kind][item->symbol];
+    unsigned place = block->ev->objects->properties[block->kind][word];
     return place ? schema_property(block->kind, place - 1) : NULL;
 }
 
@@ -595,8 +654,8 @@ static void read_property(Block *block, const SchemaProperty *property, const As
     cursor_skip(&block->cursor);
     block->items++;
     bool is_action = property->type == TYPE_ACTION || property->type == TYPE_BLOCK;
-    if (!is_allowed || !(is_action ? actions[property->action](block, property, item)
-                                   : block_value(block, property, item->span))) {
+    if (!is_allowed ||
+        !(is_action ? actions[property->action](block, property, item) : block_value(block, property, item->span))) {
         bool is_left_out = eval_leaves_out(block->ev);
         block->has_unsupported = is_left_out || block->has_unsupported;
         block->has_fault = !is_left_out || block->has_fault;

@@ -177,6 +177,22 @@ static inline bool normal_lacks_pattern(const NormalDesc *normal)
 // A pigment's colour begins with a colour word or with an identifier of a colour: POV-Ray takes nothing else.
 bool block_begins_like_colour(Block *block, const AstNode *item);
 
+// Whether a pattern may stand here: it must be the first word.
+bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// A function and what it gives at a point.
+bool pattern_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+
+// warp.c
+bool warp_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool warp_type_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool warp_close(Block *block) RT_MUST_CHECK;
+// Records of a pattern's warps, of which `last` was said last: Pattern.warps.
+bool warps_place(Eval *ev, Scene *scene, const WarpDesc *last, Span span, uint32_t *first) RT_MUST_CHECK;
+
+// formula.c
+// Steps of a function of three numbers; what it is made of must be such as the renderer has.
+bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, uint32_t *first) RT_MUST_CHECK;
+
 // material.c
 // A scene's record of a pigment that is moved by `outer`.
 bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Transform *outer, Span span,
@@ -200,12 +216,15 @@ bool material_take_name(Block *block, const MaterialDesc *material, Span span) R
 // Moves a texture with all that lies below it.
 void texture_transform(TextureDesc *texture, const Transform *transform);
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool finish_irid_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool tiles_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool finish_close(Block *block) RT_MUST_CHECK;
 bool reflection_close(Block *block) RT_MUST_CHECK;
 
 // camera.c
 bool camera_angle_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool camera_cylinder_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool camera_blur_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool camera_look_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 void camera_transform(Block *block, const Transform *transform);
@@ -227,7 +246,6 @@ bool light_place(Eval *ev, const LightDesc *light, const Transform *outer) RT_MU
 bool sky_layer_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool sky_close(Block *block) RT_MUST_CHECK;
 bool sky_place(Eval *ev, const SkySphereDesc *sky, Span span) RT_MUST_CHECK;
-bool fog_turbulence_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool fog_close(Block *block) RT_MUST_CHECK;
 bool fog_place(Eval *ev, const FogDesc *fog, Span span) RT_MUST_CHECK;
 

@@ -134,6 +134,25 @@ void camera_transform(Block *block, const Transform *transform)
     }
 }
 
+// The kind of cylinder follows.
+bool camera_cylinder_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    double number;
+    const AstNode *value = cursor_peek(&block->cursor);
+    Span span = value ? value->span : item->span;
+    if (!value || !cursor_at_value(&block->cursor)) {
+        return block_fault(block, DIAG_E0253, item->span, "`%s` needs a number after it", property->word);
+    }
+    if (!cursor_number(&block->cursor, &number, &span)) {
+        return false;
+    }
+    if (!(trunc(number) >= 1.0 && trunc(number) <= 4.0)) {
+        return block_fault(block, DIAG_E0341, span, "the `cylinder` of a camera must be 1, 2, 3 or 4, not %g", number);
+    }
+    block->record->camera.types[CAMERA_CYLINDER_1 + (int)number - 1] = true;
+    return true;
+}
+
 // One number is the most, two are the least and the most.
 bool camera_blur_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
@@ -225,13 +244,14 @@ bool camera_place(Eval *ev, const CameraDesc *camera, Span span)
     Transform world = world_transform(ev);
     CameraType type = camera_type(camera);
     // The wide cameras take no lengths from their vectors but those on the screen.
-    bool has_lengths = type == CAMERA_PERSPECTIVE || type == CAMERA_ORTHOGRAPHIC;
+    bool has_lengths = type == CAMERA_PERSPECTIVE || camera_type_moves(type);
     Transform turn = has_lengths ? world : transform_identity();
     double unit = vec3_length(transform_direction(&world, vec3(1.0, 0.0, 0.0)));
     bool has_lens = camera->aperture != 0.0 && camera->blur_samples[0] > 0, has_least = camera->blur_samples[1] != 0;
     scene->has_camera = true;
     static const double default_angles[CAMERA_TYPES] = {
-        [CAMERA_FISHEYE] = 90.0, [CAMERA_ULTRA_WIDE_ANGLE] = 90.0, [CAMERA_SPHERICAL] = 360.0};
+        [CAMERA_FISHEYE] = 90.0, [CAMERA_ULTRA_WIDE_ANGLE] = 90.0, [CAMERA_SPHERICAL] = 360.0,
+        [CAMERA_CYLINDER_1] = 90.0, [CAMERA_CYLINDER_2] = 90.0, [CAMERA_CYLINDER_3] = 90.0, [CAMERA_CYLINDER_4] = 90.0};
     bool is_given = camera->has_angle && default_angles[type] > 0.0;
     double angle = is_given ? camera->angle_deg : default_angles[type];
     scene->camera = (Camera){

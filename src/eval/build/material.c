@@ -115,6 +115,42 @@ static bool add_map(const Builder *builder, const PatternMap *map, AddEntries *a
     return true;
 }
 
+// A pigment of one colour becomes a pattern of two entries of it.
+static bool pigment_as_pattern(const Builder *builder, const Pigment *pigment, uint32_t *index)
+{
+    if (pigment->pattern != RECORD_NONE) {
+        *index = pigment->pattern;
+        return true;
+    }
+    PatternedPigment record = {.to_world = transform_identity(), .pattern = {.type = PATTERN_PLANAR, .octaves = 1},
+                               .entries = RECORD_NONE};
+    PigmentEntry entry = {.at = 0.0, .pigment = *pigment, .next = RECORD_NONE};
+    return (scene_add_pigment_entry(builder->scene, &entry, &record.entries) &&
+            scene_add_pattern(builder->scene, &record, index)) ||
+           no_memory(builder);
+}
+
+// What a pattern takes its values from, and the warps on the way to it.
+static bool place_source(const Builder *builder, const PatternPart *part, Pattern *pattern, uint64_t *patterns)
+{
+    Transform identity = transform_identity();
+    Pigment pigment;
+    *patterns = 0;
+    if (part->warps && !warps_place(builder->ev, builder->scene, part->warps, builder->span, &pattern->warps)) {
+        return false;
+    }
+    if (pattern->type == PATTERN_FUNCTION) {
+        return formula_place(builder->ev, builder->scene, part->function, builder->span, &pattern->image);
+    }
+    if (pattern->type != PATTERN_PIGMENT) {
+        return true;
+    }
+    if (!add_pigment(builder, part->pigment, &identity, &pigment, patterns)) {
+        return false;
+    }
+    return pigment_as_pattern(builder, &pigment, &pattern->image);
+}
+
 static bool add_patterned(const Builder *builder, const PigmentDesc *pigment, const Transform *outer, Pigment *out,
                           uint64_t *patterns)
 {
@@ -122,15 +158,17 @@ static bool add_patterned(const Builder *builder, const PigmentDesc *pigment, co
     const PatternMap *map = part->map ? part->map : pattern_default_map((PatternType)part->pattern.type);
     SharedMap made = {.first = RECORD_NONE};
     bool is_picture = part->pattern.type == PATTERN_IMAGE_MAP;
+    uint64_t of_source;
     PatternedPigment record = {.pattern = part->pattern, .entries = RECORD_NONE};
     if (!place_pattern(builder, &part->transform, outer, &record.to_world) ||
+        !place_source(builder, part, &record.pattern, &of_source) ||
         (is_picture && !image_place(builder->ev, builder->scene, part->image, &record.pattern.image)) ||
         (!is_picture && !(has_pigments(map) ? add_map(builder, map, add_new_pigment_entries, &made)
                                             : add_new_pigment_entries(builder, map, &made)))) {
         return false;
     }
     record.entries = made.first;
-    *patterns = cost_at_point(&record.pattern, &made).patterns;
+    *patterns = cost_at_point(&record.pattern, &made).patterns + of_source;
     *out = (Pigment){.pattern = 0};
     return scene_add_pattern(builder->scene, &record, &out->pattern) || no_memory(builder);
 }
@@ -204,14 +242,16 @@ static bool add_one_normal(const Builder *builder, const NormalDesc *normal, con
         .entries = RECORD_NONE,
         .flags = keeps_length || normal->keeps_length ? NORMAL_KEEPS_LENGTH : 0,
     };
+    uint64_t of_source;
     if (!place_pattern(builder, &normal->part.transform, outer, &record.to_world) ||
+        !place_source(builder, &normal->part, &record.pattern, &of_source) ||
         (normal->part.map && !add_map(builder, normal->part.map, add_new_normal_entries, &made)) ||
         (normal->slopes && !normal->part.map && !pattern_info((PatternType)record.pattern.type)->blocks &&
          !add_slopes(builder, normal->slopes, &record.slopes))) {
         return false;
     }
     record.entries = made.first;
-    *patterns = cost_at_point(&record.pattern, &made).patterns;
+    *patterns = cost_at_point(&record.pattern, &made).patterns + of_source;
     return scene_add_normal(builder->scene, &record, index) || no_memory(builder);
 }
 
@@ -299,12 +339,15 @@ static bool add_texture_pattern(const Builder *builder, const TextureDesc *textu
                                 Texture *record, MapCost *cost)
 {
     SharedMap made;
+    uint64_t of_source;
     if (!place_pattern(builder, &texture->part.transform, outer, &record->to_world) ||
+        !place_source(builder, &texture->part, &record->pattern, &of_source) ||
         !add_map(builder, texture->part.map, add_new_texture_entries, &made)) {
         return false;
     }
     record->entries = made.first;
     *cost = cost_at_point(&record->pattern, &made);
+    cost->patterns += of_source;
     return true;
 }
 

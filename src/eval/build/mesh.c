@@ -342,7 +342,7 @@ static bool face_is_line(const MeshReader *reader, uint32_t face)
 }
 
 // The texture of a face with these at its corners: what lies between them. Where all are the same one, too: near the
-// corners and edges POV-Ray draws less of it, see walk_corners of render/texture.c.
+// corners and edges POV-Ray draws less of it, see walk_corners of render/surface/texture.c.
 static bool join_corners(MeshReader *reader, const uint32_t indices[3], uint32_t face, Span span, uint32_t *texture)
 {
     Block *block = reader->block;

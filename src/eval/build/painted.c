@@ -13,6 +13,7 @@
 
 struct Painted {
     Scene scene;
+    PigmentDesc desc;
     Pigment pigment;
     bool is_pattern;
     bool is_tried;
@@ -35,6 +36,7 @@ static Painted *painted_new(Eval *ev, const Value *value, Span span)
     } else {
         pigment = *(const PigmentDesc *)value->record;
     }
+    painted->desc = pigment;
     return pigment_place(ev, &painted->scene, &pigment, &world, span, &painted->pigment) ? painted : NULL;
 }
 
@@ -117,6 +119,12 @@ bool painted_at(Eval *ev, Painted *painted, const double point[3], Span span, do
     v[3] = (double)(float)colour.filter;
     v[4] = (double)(float)colour.transmit;
     return true;
+}
+
+bool painted_place(Eval *ev, Scene *scene, const Painted *painted, Span span, Pigment *pigment)
+{
+    Transform identity = transform_identity();
+    return pigment_place(ev, scene, &painted->desc, &identity, span, pigment);
 }
 
 void painted_fini(Eval *ev)

@@ -233,6 +233,9 @@ static bool is_of_pattern(const SchemaProperty *property)
 {
     switch (property->action) {
     case ACTION_PATTERN:
+    case ACTION_FUNCTION:
+    case ACTION_TILES:
+    case ACTION_WARP:
     case ACTION_PATTERN_SOLID:
     case ACTION_WAVE:
     case ACTION_MAP: return true;
@@ -256,7 +259,8 @@ static bool fits_texture(Block *block, const SchemaProperty *property, const Ast
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand in a texture that begins with a pattern",
                            property->word);
     }
-    bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_MAP; // of its own
+    bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_FUNCTION ||
+                       property->action == ACTION_TILES || property->action == ACTION_MAP; // of its own
     return !is_word || !block->is_plain || has_message ||
            block_fault(block, DIAG_E0256, item->span, "`%s` can stand only in a texture that begins with a pattern",
                        property->word);
@@ -495,6 +499,28 @@ static void begin_pattern(Pattern *pattern, PatternType type)
     }
 }
 
+// The braces of `pigment_pattern`, which hold what those of a pigment do.
+static bool read_pigment_pattern(Block *block, const AstNode *item)
+{
+    Desc record;
+    SchemaKind is;
+    memcpy(&record, schema_kind(KIND_PIGMENT)->defaults, schema_kind(KIND_PIGMENT)->size);
+    if (!block_read(block->ev, item, KIND_PIGMENT, block->arena, &record, &is)) {
+        return false;
+    }
+    block->record->patterned.pigment = arena_copy(block->arena, &record.pigment, sizeof record.pigment);
+    return block->record->patterned.pigment || eval_no_memory(block->ev, item->span);
+}
+
+// A pattern stands first.
+bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    return may_have_pattern(block, property, item) &&
+           ((block->items <= 1 && block->arguments == 0) ||
+            block_fault(block, DIAG_E0256, item->span, "`%s` must stand before everything else in %s", property->word,
+                        block_word(block)));
+}
+
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     const SchemaProperty direction = {property->word, TYPE_VECTOR, ACTION_NONE,
@@ -504,12 +530,8 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     Pattern *pattern = &block->record->patterned.pattern;
     PatternType type = type_of(property->word);
     const PatternInfo *info = pattern_info(type);
-    if (!may_have_pattern(block, property, item)) {
+    if (!pattern_may_begin(block, property, item)) {
         return false;
-    }
-    if (block->items > 1 || block->arguments > 0) {
-        return block_fault(block, DIAG_E0256, item->span, "`%s` must stand before everything else in %s",
-                           property->word, block_word(block));
     }
     // A list of blocks becomes a map along values: the first at 0, the second at 1. A map of normals is no list.
     // Measured.
@@ -535,7 +557,22 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
         return false;
     }
     bool has_entries = info->blocks != 0 && block->kind != KIND_PATTERN;
-    return (!has_entries || read_block_entries(block, type, item->span)) && read_amount(block);
+    return (type != PATTERN_PIGMENT || read_pigment_pattern(block, item)) &&
+           (!has_entries || read_block_entries(block, type, item->span)) && read_amount(block);
+}
+
+// A function stands for its pattern.
+bool pattern_function_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    PatternPart *part = &block->record->patterned;
+    Value value;
+    if (!pattern_may_begin(block, property, item) || !eval_rvalue(block->ev, item, &value)) {
+        return false;
+    }
+    begin_pattern(&part->pattern, PATTERN_FUNCTION);
+    part->pattern.type = PATTERN_FUNCTION;
+    part->function = value.function;
+    return read_amount(block);
 }
 
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item)

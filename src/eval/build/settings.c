@@ -90,5 +90,6 @@ bool settings_place(Eval *ev, SchemaKind kind, const Desc *record)
     settings->max_trace_level = record->settings.max_trace_level;
     settings->noise_generator = record->settings.noise_generator;
     settings->number_of_waves = record->settings.number_of_waves;
+    settings->irid_wavelength = record->settings.irid_wavelength;
     return true;
 }

@@ -4,10 +4,8 @@
 // POV-Ray 3.7. Knows nothing of rays.
 //
 // SPDX-License-Identifier: MIT
+#include "base/number.h"
 #include "eval/build/blocks.h"
-
-#include <stddef.h>
-#include <string.h>
 
 // ---- sky_sphere
 
@@ -67,32 +65,10 @@ bool objects_finish(Eval *ev)
 
 // ---- fog
 
-// Each of these words makes POV-Ray's fog turbulent, whatever its value, unless turb_depth is 0 in the end. Measured.
-bool fog_turbulence_action(Block *block, const SchemaProperty *property, const AstNode *item)
-{
-    bool is_vector = strcmp(property->word, "turbulence") == 0;
-    SchemaProperty value = {.word = property->word, .type = is_vector ? TYPE_VECTOR : TYPE_NUMBER};
-    value.at = is_vector ? offsetof(FogDesc, turbulence) : offsetof(FogDesc, turbulence_detail);
-    FogDesc *fog = &block->record->fog;
-    if (!block_value(block, &value, item->span)) {
-        return false;
-    }
-    if (!fog->turbulent_word) {
-        fog->turbulent_word = property->word;
-        fog->turbulent_span = item->span;
-    }
-    return true;
-}
-
 bool fog_close(Block *block)
 {
     const FogDesc *fog = &block->record->fog;
     Span span = block->node->span;
-    if (fog->turbulent_word && fog->turb_depth != 0.0 && !block->has_unsupported) {
-        block->has_unsupported = true;
-        block_unsupported(block->ev, fog->turbulent_word, fog->turbulent_span, KIND_FOG);
-        return true;
-    }
     if (fog->type != 2 || fog->distance == 0.0) {
         return true;
     }
@@ -111,6 +87,16 @@ bool fog_place(Eval *ev, const FogDesc *fog, Span span)
     Fog record = {.is_ground = fog->type == 2, .distance = fog->distance * scale, .colour = fog->colour, .span = span};
     if (record.distance == 0.0) {
         return true;
+    }
+    // Each of the words makes POV-Ray's fog turbulent, whatever its value. Measured.
+    if (fog->is_turbulent && fog->turb_depth != 0.0) {
+        record.is_turbulent = true;
+        record.turb_depth = number_single(fog->turb_depth);
+        record.turbulence = vec3_scale(1.0 / scale, fog->turbulence);
+        record.origin = shift;
+        record.lambda = number_single(fog->lambda);
+        record.omega = number_single(fog->omega);
+        record.octaves = fog->octaves;
     }
     if (record.is_ground) {
         record.up = vector_unit(fog->up);

@@ -305,6 +305,65 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
                                               : read_part(ev, property->action, item, block->arena, texture);
 }
 
+// The layers of one kind of tile, up to `tile2` or the end.
+static bool read_tile(Block *block, Cursor *cursor, Span span, const TextureDesc **texture)
+{
+    const AstNode *item;
+    *texture = NULL;
+    while ((item = cursor_peek(cursor)) && block_kind(block->ev, item) == KIND_TEXTURE) {
+        TextureDesc layer;
+        if (!read_texture(block->ev, item, block->arena, *texture, &layer)) {
+            return false;
+        }
+        *texture = arena_copy(block->arena, &layer, sizeof layer);
+        if (!*texture) {
+            return eval_no_memory(block->ev, item->span);
+        }
+        cursor_skip(cursor);
+    }
+    return *texture || block_fault(block, DIAG_E0253, item ? item->span : span,
+                                   "`tiles` needs textures before and after `tile2`");
+}
+
+static bool read_tiles(Block *block, Cursor *cursor, Span span, PatternEntry *entries)
+{
+    if (!read_tile(block, cursor, span, &entries[1].texture)) {
+        return false;
+    }
+    if (!cursor_at_word(cursor, W_tile2)) {
+        return block_fault(block, DIAG_E0253, span, "`tiles` needs textures before and after `tile2`");
+    }
+    cursor_skip(cursor);
+    if (!read_tile(block, cursor, span, &entries[0].texture)) {
+        return false;
+    }
+    const AstNode *rest = cursor_peek(cursor);
+    return !rest || block_fault(block, DIAG_E0256, rest->span, "`tiles` holds textures and `tile2` only");
+}
+
+// The cubes of `checker`, the other way round. Measured.
+bool tiles_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    Cursor cursor;
+    PatternEntry entries[2] = {{.at = 0.0}, {.at = 1.0}};
+    PatternPart *part = &block->record->patterned;
+    if (!pattern_may_begin(block, property, item)) {
+        return false;
+    }
+    cursor_open(&cursor, block->ev, item->a, item->span);
+    bool is_read = read_tiles(block, &cursor, item->span, entries);
+    cursor_close(&cursor);
+    if (!is_read) {
+        return false;
+    }
+    PatternMap map = {arena_copy(block->arena, entries, sizeof entries), 2};
+    part->map = map.entries ? arena_copy(block->arena, &map, sizeof map) : NULL;
+    part->pattern.type = PATTERN_CHECKER;
+    part->pattern.frequency = 0.0; // the numbers of blocks stay as they are
+    block->is_plain = true;        // only transforms follow
+    return part->map || eval_no_memory(block->ev, item->span);
+}
+
 bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     static const SchemaProperty alone = {"reflection", TYPE_RGB, ACTION_NONE,
@@ -325,6 +384,19 @@ bool reflection_action(Block *block, const SchemaProperty *property, const AstNo
     }
     *finish = record.finish.finish;
     block->record->finish.is_fresnel = record.finish.is_fresnel;
+    return true;
+}
+
+bool finish_irid_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    Desc record;
+    SchemaKind is;
+    (void)property;
+    record.finish = block->record->finish;
+    if (!block_read(block->ev, item, KIND_IRID, block->arena, &record, &is)) {
+        return false;
+    }
+    block->record->finish.finish = record.finish.finish;
     return true;
 }
 

@@ -1,7 +1,7 @@
 // #fopen, #read and #fclose: numbers, vectors and strings of a data file become the values of names.
 //
-// A file is read in blocks and each value once, from the block into the variable. Owns the files that are open. Knows
-// nothing of where files are: that is files.c.
+// A file is read in blocks and each value once, from the block into the variable. Owns the files that are open for
+// reading. Knows nothing of where files are: that is files.c; nor of how they are written: written.c.
 //
 // SPDX-License-Identifier: MIT
 #include <errno.h>
@@ -294,17 +294,31 @@ static bool read_comma(Eval *ev, DataFile *file, bool *is_end)
 
 // ---- #fopen and #fclose
 
-static void run_open(Eval *ev, const AstNode *node)
+static bool data_open(Eval *ev, const AstNode *node, DataFile **opened)
 {
     Source *source;
-    if (node->symbol != W_read) {
-        if (node->symbol == W_write || node->symbol == W_append) {
-            eval_fault(ev, DIAG_E0269, node->span, "`#fopen … %s` is refused: a scene writes no files",
-                       eval_text(ev, node->symbol));
-        } else {
-            eval_fault(ev, DIAG_E0106, node->span, "`#fopen` wants `read` after the file's name, found `%s`",
-                       eval_text(ev, node->symbol));
-        }
+    if (!file_open(ev, node->b, FILE_DATA, &source)) {
+        return false;
+    }
+    DataFile *file = malloc(sizeof *file);
+    if (file == NULL) {
+        source_close(source);
+        return eval_no_memory(ev, node->span);
+    }
+    *file = (DataFile){.next = ev->data_files, .source = source, .end_offset = source_base(source)};
+    file->at = file->end = file->block;
+    text_init(&file->text);
+    *opened = ev->data_files = file;
+    return true;
+}
+
+static void run_open(Eval *ev, const AstNode *node)
+{
+    Value value = {.kind = VALUE_FILE};
+    bool reads = node->symbol == W_read, appends = node->symbol == W_append;
+    if (!reads && !appends && node->symbol != W_write) {
+        eval_fault(ev, DIAG_E0106, node->span, "`#fopen` wants `read`, `write` or `append` after the file's name, found `%s`",
+                   eval_text(ev, node->symbol));
         return;
     }
     const Value *known = scope_find(ev, node->a->symbol);
@@ -313,21 +327,12 @@ static void run_open(Eval *ev, const AstNode *node)
                    eval_text(ev, node->a->symbol), value_describe(known));
         return;
     }
-    if (!file_open(ev, node->b, FILE_DATA, &source)) {
+    bool is_open = reads ? data_open(ev, node, &value.file)
+                         : written_open(ev, node->b, appends, node->span, &value.written);
+    if (!is_open) {
         ev->file_is_missing = true;
         return;
     }
-    DataFile *file = malloc(sizeof *file);
-    if (file == NULL) {
-        source_close(source);
-        eval_no_memory(ev, node->span);
-        return;
-    }
-    *file = (DataFile){.next = ev->data_files, .source = source, .end_offset = source_base(source)};
-    file->at = file->end = file->block;
-    text_init(&file->text);
-    ev->data_files = file;
-    Value value = {.kind = VALUE_FILE, .file = file};
     ev->faulty = !scope_declare(ev, node->a->symbol, false, &value, node->a->span) || ev->faulty;
 }
 
@@ -362,8 +367,14 @@ void data_files_fini(Eval *ev)
 static void run_close(Eval *ev, const AstNode *node)
 {
     const Value *found = scope_find(ev, node->a->symbol);
-    if (found != NULL && found->kind == VALUE_FILE) {
+    if (found == NULL || found->kind != VALUE_FILE) {
+        return;
+    }
+    if (found->file != NULL) {
         close_file(ev, node->a->symbol, found->file);
+    } else {
+        written_close(ev, found->written);
+        scope_undef(ev, node->a->symbol);
     }
 }
 
@@ -507,6 +518,11 @@ static bool read_all(Eval *ev, const AstNode *targets, DataFile *file, bool *is_
 
 static void fault_not_open(Eval *ev, const AstNode *name, const Value *found)
 {
+    if (found != NULL && found->kind == VALUE_FILE) {
+        eval_fault(ev, DIAG_E0267, name->span, "`%s` is open for %s only", eval_text(ev, name->symbol),
+                   found->file != NULL ? "reading" : "writing");
+        return;
+    }
     bool is_told = found == NULL ? ev->file_is_missing : found->kind == VALUE_NONE;
     if (!is_told && eval_report(ev, DIAG_E0267, name->span, "`%s` is not an open file", eval_text(ev, name->symbol))) {
         diag_suggest(ev->options.diags, "the end of a file closes it: read while `defined(%s)`",
@@ -530,7 +546,7 @@ static void run_read(Eval *ev, const AstNode *node)
 {
     const AstNode *name = node->a;
     const Value *found = scope_find(ev, name->symbol);
-    if (found == NULL || found->kind != VALUE_FILE) {
+    if (found == NULL || found->kind != VALUE_FILE || found->file == NULL) {
         fault_not_open(ev, name, found);
         forget_targets(ev, node->b);
         return;
@@ -557,6 +573,18 @@ static void run_read(Eval *ev, const AstNode *node)
     }
 }
 
+static void run_write(Eval *ev, const AstNode *node)
+{
+    const AstNode *name = node->a;
+    const Value *found = scope_find(ev, name->symbol);
+    if (found != NULL && found->kind == VALUE_FILE && found->written != NULL) {
+        written_write(ev, node->b, found->written);
+    } else {
+        fault_not_open(ev, name, found);
+        ev->faulty = true;
+    }
+}
+
 void data_file_run(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
@@ -564,6 +592,6 @@ void data_file_run(Cursor *cursor, const AstNode *node)
     case AST_FOPEN: run_open(ev, node); break;
     case AST_FCLOSE: run_close(ev, node); break;
     case AST_READ: run_read(ev, node); break;
-    default: eval_fault(ev, DIAG_E0269, node->span, "`#write` is refused: a scene writes no files"); break;
+    default: run_write(ev, node); break;
     }
 }

@@ -19,7 +19,8 @@
 enum { LINKS_MOST = 40 }; // as many as the kernel follows
 
 struct FileState {
-    ARRAY(char *) roots; // real paths of the folders that may be read
+    ARRAY(char *) roots; // real paths of the folders that may be read; the first of them may be written to
+    size_t written;      // so many of them
     TextBuffer checked;  // the path that was found readable last
     TextBuffer real;     // the same, all links resolved
 };
@@ -74,7 +75,12 @@ bool files_init(Eval *ev, const Source *scene)
     }
     text_init(&files->checked);
     text_init(&files->real);
-    bool fine = add_folder_of(files, source_name(scene));
+    bool fine = true;
+    for (size_t i = 0; fine && i < options->write_folder_count; i++) {
+        fine = add_root(files, options->write_folders[i]);
+    }
+    files->written = files->roots.count;
+    fine = fine && add_folder_of(files, source_name(scene));
     for (size_t i = 0; fine && i < options->include_path_count; i++) {
         fine = add_root(files, options->include_paths[i]);
     }
@@ -277,6 +283,25 @@ static bool may_read(Eval *ev, const char *path, Span span)
     free(real);
     bool has_memory = !files->checked.failed && !files->real.failed;
     return is_below && (has_memory || eval_no_memory(ev, span));
+}
+
+bool file_may_write(Eval *ev, const char *name, Span span, char *real)
+{
+    const FileState *files = ev->files;
+    char folder[PATH_MAX], *place = place_of(name);
+    bool is_below = false;
+    for (size_t i = 0; place != NULL && i < files->written; i++) {
+        is_below = is_below || lies_below(place, files->roots.items[i]);
+    }
+    bool fits = place != NULL && snprintf(real, PATH_MAX, "%s", place) < PATH_MAX;
+    if (!fits) {
+        eval_fault(ev, DIAG_E0505, span, "cannot write `%s`: %s", name, strerror(ENAMETOOLONG));
+    } else if (!is_below && eval_report(ev, DIAG_E0269, span, "this scene may not write `%s`", name)) {
+        folder_to_allow(name, place, folder, sizeof folder);
+        diag_suggest(ev->options.diags, "pass `--allow-write %s` to allow it", folder);
+    }
+    free(place);
+    return fits && is_below;
 }
 
 // ---- looking

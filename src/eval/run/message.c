@@ -57,6 +57,17 @@ static void fault_many(Eval *ev, uint64_t most, Span span)
     ev->stop = true;
 }
 
+bool message_count_bytes(Eval *ev, size_t bytes, Span span)
+{
+    uint64_t most = ev->options.limits->message_bytes;
+    if (ev->message_bytes + ev->line.length + bytes > most) {
+        fault_many(ev, most, span);
+        return false;
+    }
+    ev->message_bytes += bytes;
+    return true;
+}
+
 void message_write(Eval *ev, EvalStream stream, const char *text, size_t length, Span span)
 {
     uint64_t most = ev->options.limits->message_bytes;

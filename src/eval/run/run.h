@@ -41,6 +41,8 @@ extern const EvalText text_of_scene;
 // One top-level item. EVAL_STREAM_DEBUG and the like go to message.c.
 void eval_item(Eval *ev, const AstNode *item);
 void message_write(Eval *ev, EvalStream stream, const char *text, size_t length, Span span);
+// Counts bytes that are written to files among those of messages. False, with a message, when they are too many.
+bool message_count_bytes(Eval *ev, size_t bytes, Span span) RT_MUST_CHECK;
 
 // A #version said that the text knows 3.7.
 bool eval_knows_37(const Eval *ev);
@@ -300,6 +302,10 @@ const char *file_folder(const Eval *ev, size_t i);
 // Whether there is such a file. False when it may not be asked for; that is reported.
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MUST_CHECK;
 
+// Where a file of that name is to be written, all links resolved, in `real` of PATH_MAX bytes. False when it may not be;
+// that is reported.
+bool file_may_write(Eval *ev, const char *name, Span span, char *real) RT_MUST_CHECK;
+
 // The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a
 // list that NULL ends is added in turn. `node` is the expression that gave the name.
 const char *file_find(Eval *ev, const AstNode *node, const char *name, FileUse use,
@@ -308,6 +314,13 @@ const char *file_find(Eval *ev, const AstNode *node, const char *name, FileUse u
 // #fopen, #fclose, #read and #write
 void data_file_run(Cursor *cursor, const AstNode *node);
 void data_files_fini(Eval *ev);
+
+// Makes the file whose name the expression gives, or prolongs it. False, with a message, where a scene may not write.
+bool written_open(Eval *ev, const AstNode *name, bool appends, Span span, WrittenFile **written) RT_MUST_CHECK;
+void written_write(Eval *ev, const AstNode *values, WrittenFile *written);
+// Bytes that are lost are reported.
+void written_close(Eval *ev, WrittenFile *written);
+void written_files_close(Eval *ev);
 
 // ---- macros
 

@@ -81,6 +81,8 @@ typedef struct EvalOptions {
     Library *library; // the folders searched after these, filled when they are needed; NULL: none
     const char *const *read_folders; // where files may be read besides the scene's folder and the include paths
     size_t read_folder_count;
+    const char *const *write_folders; // where files may be written, and read
+    size_t write_folder_count;
     const EvalDeclaration *declarations;
     size_t declaration_count;
     const char *header;            // a file that is included before the first item; NULL: none

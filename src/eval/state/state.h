@@ -31,6 +31,7 @@ typedef struct Cursor Cursor;           // run/run.h
 typedef struct CursorFrame CursorFrame;
 typedef struct FileState FileState;     // run/files.c
 typedef struct DataFile DataFile;       // run/datafile.c
+typedef struct WrittenFile WrittenFile; // run/written.c
 typedef struct Lint Lint;               // run/lint.c
 typedef struct Origins Origins;         // run/origin.c
 typedef struct KeptBlock KeptBlock;     // values/kept.c
@@ -122,6 +123,7 @@ struct Eval {
     ObjectState *objects;
     FileState *files;
     DataFile *data_files; // all that were opened
+    WrittenFile *written_files; // likewise, for writing
     Lint *lint; // NULL when nobody asked
     Origins *origins; // NULL before a name was looked for in files that are not included
     const DiagFrame *frame; // also in options.diags->frame

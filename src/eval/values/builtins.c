@@ -59,25 +59,7 @@ static bool fault_domain(Eval *ev, const AstNode *node, double argument)
     return eval_fault(ev, DIAG_E0302, node->span, "`%s` has no value at %g", eval_text(ev, node->symbol), argument);
 }
 
-// A C conversion to int as x86 does it: what does not fit is the least int.
-double number_to_int(double number)
-{
-    // A whole number has no negative zero.
-    return number > -2147483649.0 && number < 2147483648.0 ? trunc(number) + 0.0 : -2147483648.0;
-}
-
 // ---- functions of numbers
-
-// Rounded as POV-Ray does it, measured on 400 numbers.
-double number_degrees(double radians)
-{
-    return radians / (NUMBER_PI / 180.0);
-}
-
-double number_radians(double degrees)
-{
-    return degrees * (NUMBER_PI / 180.0);
-}
 
 static bool positive_only(Eval *ev, const AstNode *node, Value *value)
 {

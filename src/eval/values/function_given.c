@@ -82,7 +82,7 @@ bool function_given(Eval *ev, const AstNode *internal, Function *function)
     if (body == NULL) {
         return eval_no_memory(ev, internal->span);
     }
-    *body = (FunctionNode){.run = given->run, .height = 1};
+    *body = (FunctionNode){.run = given->run, .height = 1, .slot = W_internal, .number = number->number};
     function->body = body;
     function->parameter_count = given->parameter_count;
     if (given->run == NULL) {

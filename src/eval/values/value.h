@@ -17,7 +17,7 @@ typedef enum ValueKind {
     VALUE_MACRO,
     VALUE_FUNCTION,
     VALUE_SPLINE,
-    VALUE_FILE,  // the name of a file that is open for #read
+    VALUE_FILE,  // the name of a file that is open
     VALUE_BLOCK, // a declared texture, sphere, camera, …: an immutable struct of its kind
 } ValueKind;
 
@@ -49,7 +49,10 @@ struct Value {
         Macro *macro;
         const Function *function;
         const Spline *spline;
-        DataFile *file;
+        struct {
+            DataFile *file;       // for reading, or NULL
+            WrittenFile *written; // for writing, or NULL
+        };
         struct {
             const void *record; // of schema_kind(block)->size bytes, in the scene arena
             const struct UnsupportedDesc *lacks; // what it was read without

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "eval/values/value.h"
 
 // ---- what is asked of the text that a value stands in
@@ -58,11 +59,7 @@ static inline void number_check(Eval *ev, double number, Span span)
     }
 }
 
-#define NUMBER_PI 3.14159265358979323846
 enum { EPOCH_2000 = 946684800 };     // seconds from 1970 to the first moment of the year 2000, universal time
-double number_to_int(double number); // as a C conversion to int does it on x86: what does not fit is the least int
-double number_degrees(double radians);
-double number_radians(double degrees);
 double number_gray(const double v[3]);
 
 // The place of a component in a tuple of `width` components, COMPONENT_GRAY for `gray`; false when it has none.

@@ -307,7 +307,7 @@ static Rgb follow_layer(void *client, const TextureLayer *layer)
     follower->at = whole;
     out.light_count = follower->ray_log->lights.count - out.first_light;
     follower->failed |= !ARRAY_PUSH(&follower->ray_log->layers, out);
-    return shade_left_below(FEATURES, &material, follower->at);
+    return shade_left_below(p, FEATURES, &material, follower->at);
 }
 
 static void follow_surface(Follower *follower, const ShadingPoint *at)

@@ -5,6 +5,12 @@
 //   fisheye:           at the angle A sqrt((u |R|)² + (v |U|)²) to d, where the root is at most 1/2, turned as (u |R|, v |U|)
 //   ultra wide angle:  sin(u A) r + sin(v A |U| / |R|) u^ + cos(u A) cos(v A |U| / |R|) d
 //   panoramic:         sin(pi u) right + tan(pi v) up + cos(pi u) direction
+//   omnimax:           as a fisheye, at the angle 1.411269 R - 0.09439 R³ + 0.25674 R⁵, R being the distance from the
+//                      middle of a disc of radius 1 that is as wide as the picture, for the lens of N. Max, "Computer
+//                      graphics distortion for IMAX and OMNIMAX projection", 1983; what is below is cut (camera.c)
+//   cylinder 1:        sin(u A) r + v |U| u^ + cos(u A) d
+//   cylinder 2:        u |R| r + sin(v A) u^ + cos(v A) d
+//   cylinder 3:        sin(u A) r + cos(u A) d, from v up;   cylinder 4: sin(v A) u^ + cos(v A) d, from u right
 //   spherical:         d turned about r by -v times the upright angle, then about u^ by u A, each from y to z, z to x, x to y
 //
 // SPDX-License-Identifier: MIT
@@ -18,16 +24,15 @@
 #include "render/points/sampler.h"
 #include "render/records/prepared.h"
 
-// The direction of a camera that is neither perspective nor orthographic; as camera_ray.
-bool camera_wide_direction(const PreparedCamera *camera, double u, double v, Vec3 *direction);
+// The ray of a camera that is neither perspective nor orthographic; as camera_ray.
+bool camera_wide_ray(const PreparedCamera *camera, double u, double v, Ray *ray);
 
 // The ray of a point of the picture: u from -1/2 (left) to 1/2 (right), v from -1/2 (top) to 1/2 (bottom). False where
 // nothing is seen; the ray is one then all the same.
 RT_ALWAYS_INLINE bool camera_ray(const PreparedCamera *camera, double u, double v, Ray *ray)
 {
     if (camera->type > CAMERA_ORTHOGRAPHIC) {
-        ray->origin = camera->location;
-        return camera_wide_direction(camera, u, v, &ray->direction);
+        return camera_wide_ray(camera, u, v, ray);
     }
     Vec3 across = vec3_sub(vec3_scale(u, camera->right), vec3_scale(v, camera->up));
     *ray = camera->type == CAMERA_ORTHOGRAPHIC

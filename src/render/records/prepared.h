@@ -56,6 +56,10 @@ typedef struct PreparedFinish {
     double reflection_falloff, reflection_exponent, reflection_metallic;
     double reflection_weight; // the greatest component of both
     double refraction;        // share of what is let through that continues
+    double crand;             // 0: not
+    double irid, irid_thickness, irid_turbulence; // 0: not
+    Rgb irid_waves;           // turns of a unit of thickness, in radians
+    bool is_special;          // crand or irid: shaded ray by ray
     bool shines, reflects, conserves_energy, is_fresnel;
     bool reflects_evenly; // the same at all angles, and not metallic
 } PreparedFinish;

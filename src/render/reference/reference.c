@@ -95,6 +95,12 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     if (scene->sky.count > 0) {
         covers = refuse(diags, scene->sky_span, "a sky_sphere");
     }
+    for (size_t i = 0; i < p->finish_count; i++) {
+        if (p->finishes[i].is_special) {
+            covers = refuse(diags, scene->whole, "`crand` or `irid`");
+            break;
+        }
+    }
     if (scene->fogs.count > 0) {
         covers = refuse(diags, scene->fogs.items[0].span, "fog");
     }

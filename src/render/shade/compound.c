@@ -83,11 +83,11 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
 {
     LayerSum *sum = client;
     ShadeMaterial material = shade_material(sum->p, FLAT_FEATURES, layer->pigment, layer->finish);
-    Rgb reflectance, left = shade_left_below(FLAT_FEATURES, &material, sum->at);
+    Rgb reflectance, left = shade_left_below(sum->p, FLAT_FEATURES, &material, sum->at);
     if (layer->is_top) {
         end_mirrors(sum, sum->scatter, 1);
     }
-    if (shade_mirror(FLAT_FEATURES, &material, sum->at, &reflectance)) {
+    if (shade_mirror(sum->p, FLAT_FEATURES, &material, sum->at, &reflectance)) {
         add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->scatter, sum->own);
     }
     sum->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
@@ -181,8 +181,8 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
         begin_stack(bumps, layer, at.normal);
     }
     ShadeMaterial material = shade_material(sum->p, ALL_FEATURES, layer->pigment, layer->finish);
-    Rgb reflectance, left = shade_left_below(ALL_FEATURES, &material, &at);
-    if (shade_mirror(ALL_FEATURES, &material, &at, &reflectance)) {
+    Rgb reflectance, left = shade_left_below(sum->p, ALL_FEATURES, &material, &at);
+    if (shade_mirror(sum->p, ALL_FEATURES, &material, &at, &reflectance)) {
         int way = way_for(bumps, at.normal);
         add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, &bumps->ways->scatter[way], &sum->own[way]);
     }

@@ -56,14 +56,19 @@ RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const Sha
 }
 
 // The mirror of a material, by colour; false when it has none.
-RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *material, const ShadingPoint *at,
-                                   Rgb *reflectance)
+RT_ALWAYS_INLINE bool shade_mirror(const Prepared *p, unsigned features, const ShadeMaterial *material,
+                                   const ShadingPoint *at, Rgb *reflectance)
 {
     if (!(features & RENDER_REFLECTION) || !material->finish->reflects) {
         return false;
     }
     double ratio = at->media ? at->fresnel_ratio : 1.0;
-    *reflectance = shade_reflectance(features, material, -vec3_dot(at->normal, at->direction), ratio);
+    double cosine = -vec3_dot(at->normal, at->direction);
+    *reflectance = shade_reflectance(features, material, cosine, ratio);
+    if ((features & RENDER_TEXTURES) && material->finish->irid > 0.0) {
+        double along = vec3_dot(at->normal, shade_mirrored(features, at));
+        *reflectance = rgb_mul(*reflectance, shade_thin_layer(p, material->finish, at, along));
+    }
     return true;
 }
 
@@ -75,19 +80,19 @@ RT_ALWAYS_INLINE double shade_mirror_weight(unsigned features, const PreparedFin
 }
 
 // What a layer's mirror leaves of the light of the layers below.
-RT_ALWAYS_INLINE Rgb shade_left_below(unsigned features, const ShadeMaterial *material, const ShadingPoint *at)
+RT_ALWAYS_INLINE Rgb shade_left_below(const Prepared *p, unsigned features, const ShadeMaterial *material, const ShadingPoint *at)
 {
     Rgb reflectance;
-    return material->finish->conserves_energy && shade_mirror(features, material, at, &reflectance)
+    return material->finish->conserves_energy && shade_mirror(p, features, material, at, &reflectance)
                ? rgb_add_scaled(rgb_grey(1.0), -1.0, reflectance)
                : rgb_grey(1.0);
 }
 
 // What a surface's mirror sends on.
-RT_ALWAYS_INLINE void shade_set_mirror(unsigned features, const ShadeMaterial *material, const ShadingPoint *at,
+RT_ALWAYS_INLINE void shade_set_mirror(const Prepared *p, unsigned features, const ShadeMaterial *material, const ShadingPoint *at,
                                        ScatterRecord *scatter)
 {
-    if (shade_mirror(features, material, at, &scatter->reflectance)) {
+    if (shade_mirror(p, features, material, at, &scatter->reflectance)) {
         scatter->reflection_weight = shade_mirror_weight(features, material->finish, scatter->reflectance);
         scatter->reflection_exponent = material->finish->reflection_exponent;
     }
@@ -128,7 +133,7 @@ RT_ALWAYS_INLINE void shade_set_clear(const Prepared *p, unsigned features, cons
 {
     const PreparedFinish *finish = material->finish;
     Rgb reflectance;
-    if (shade_mirror(features, material, at, &reflectance)) {
+    if (shade_mirror(p, features, material, at, &reflectance)) {
         double own = rgb_luminance(rgb_grey(1.0)) * shade_mirror_weight(features, finish, reflectance);
         if (!(weight * own < p->adc_bailout)) {
             scatter->reflectance = reflectance;
@@ -136,7 +141,7 @@ RT_ALWAYS_INLINE void shade_set_clear(const Prepared *p, unsigned features, cons
             scatter->reflection_exponent = finish->reflection_exponent;
         }
     }
-    Rgb through = rgb_mul(shade_left_below(features, material, at), texture_pigment_through(layer->pigment));
+    Rgb through = rgb_mul(shade_left_below(p, features, material, at), texture_pigment_through(layer->pigment));
     if (!rgb_is_black(through) && !(fabs(rgb_luminance(through)) < p->adc_bailout)) {
         scatter->through = through;
         scatter->through_weight = rgb_max_abs(through);
@@ -158,7 +163,7 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
     if ((features & RENDER_TEXTURES) && layer->is_clear) {
         shade_set_clear(p, features, &material, layer, at, weight, scatter);
     } else {
-        shade_set_mirror(features, &material, at, scatter);
+        shade_set_mirror(p, features, &material, at, scatter);
         if (features & RENDER_TRANSPARENCY) {
             scatter->through = texture_pigment_through(layer->pigment);
             scatter->conserves_energy = material.finish->conserves_energy;

@@ -349,6 +349,17 @@ RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigm
                1.0 + share * (pigment.blue - 1.0));
 }
 
+// What is less by chance: the same at a point for any number of threads.
+RT_ALWAYS_INLINE double shade_grain(const PreparedLight *light, const ShadingPoint *at)
+{
+    enum { GRAIN = 1 << 20 }; // no light of an area has this number
+    return 0.5 + light_random(light_key(light, at->point, GRAIN, GRAIN));
+}
+
+// Colours of a thin layer: light that goes through it once more is ahead by as much as the angles of light and viewer
+// say. In shade_thin.c.
+Rgb shade_thin_layer(const Prepared *p, const PreparedFinish *finish, const ShadingPoint *at, double cosine);
+
 // What one light adds at a point: diffuse on the side it stands on, highlights on the viewer's side only.
 RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const ShadeMaterial *material,
                                  const PreparedLight *light, const ShadingPoint *at, RenderStatistics *statistics)
@@ -380,12 +391,19 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
         arriving = rgb_mul(arriving, share);
     }
     double falloff = features & RENDER_BRILLIANCE ? shade_power(fabs(cosine), finish->brilliance) : cosine;
-    Rgb sum = rgb_scale(falloff, rgb_scale(back ? finish->diffuse_back : finish->diffuse, material->opaque));
+    double diffuse = back ? finish->diffuse_back : finish->diffuse;
+    Rgb sum = rgb_scale(falloff, rgb_scale(diffuse, material->opaque));
+    if ((features & RENDER_TEXTURES) && finish->crand > 0.0 && diffuse > 0.0) {
+        sum = rgb_add_scaled(sum, -finish->crand * shade_grain(light, at), material->pigment);
+    }
     if ((features & RENDER_HIGHLIGHTS) && finish->shines && front && !light->shadowless) {
         double shine = shade_highlights(finish, at, towards);
         Rgb tint = finish->metallic > 0.0 ? shade_metallic(features, finish->metallic, material->pigment, cosine)
                                             : rgb_grey(1.0);
         sum = rgb_add_scaled(sum, shine, tint);
+    }
+    if ((features & RENDER_TEXTURES) && finish->irid > 0.0) {
+        sum = rgb_mul(sum, shade_thin_layer(p, finish, at, fabs(cosine)));
     }
     return rgb_mul(sum, arriving);
 }

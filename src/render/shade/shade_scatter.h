@@ -199,6 +199,16 @@ RT_ALWAYS_INLINE MediumStack shade_cross(const Prepared *p, unsigned features, S
     return behind;
 }
 
+// The finish of a surface's top layer; NULL where textures lie side by side.
+RT_ALWAYS_INLINE const PreparedFinish *shade_top_finish(const Prepared *p, MaterialIndex material)
+{
+    if (!(material & MATERIAL_COMPOUND)) {
+        return &p->finishes[p->materials[material].finish];
+    }
+    const Texture *top = &p->scene->textures.items[p->compounds[material & ~MATERIAL_COMPOUND].texture];
+    return top->pattern.type == PATTERN_NONE ? &p->finishes[top->finish] : NULL;
+}
+
 // The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to
 // the next level. There is none when it is too deep or worth too little, and then no other mirrored ray either.
 // Measured.
@@ -220,6 +230,10 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const Sca
         // Its weight is that of one that gets through, its light is not. Measured.
         ray->share = rgb_mul(from->share, rgb_scale(scatter->part * scatter->refraction, fade));
         direction = shade_mirrored(features, at);
+        const PreparedFinish *finish = features & RENDER_TEXTURES ? shade_top_finish(p, at->material) : NULL;
+        if (finish && finish->irid > 0.0) {
+            ray->share = rgb_mul(ray->share, shade_thin_layer(p, finish, at, vec3_dot(at->normal, direction)));
+        }
     }
     // Bumps may bend a ray back to the side that it came from.
     bool goes_in = (features & RENDER_NORMALS) && is_bent ? vec3_dot(at->outward, direction) < 0.0

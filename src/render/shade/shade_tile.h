@@ -356,7 +356,7 @@ RT_ALWAYS_INLINE bool shade_tile_mirrors(const Prepared *p, unsigned features, c
     if (!tile->finish[i]->reflects) {
         return false;
     }
-    shade_set_mirror(features, &material, &at, &scatter);
+    shade_set_mirror(p, features, &material, &at, &scatter);
     paths->share[ray] = rgb_mul(level == 1 ? rgb_grey(1.0) : paths->share[ray], scatter.reflectance);
     paths->weight[ray] = (level == 1 ? 1.0 : paths->weight[ray]) * scatter.reflection_weight;
     if (!shade_is_followed(p, level, paths->weight[ray])) {
@@ -417,8 +417,8 @@ RT_ALWAYS_INLINE void shade_tile_gather_clear(const LightTile *tile, const TileP
 }
 
 // What a surface sends on: shade_plain says the same of single rays.
-RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(unsigned features, const LightTile *tile, const TileClear *clear,
-                                                    int i)
+RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(const Prepared *p, unsigned features, const LightTile *tile,
+                                                    const TileClear *clear, int i)
 {
     ScatterRecord scatter = {.through = clear->through[i],
                              .reflectance = rgb_grey(0.0),
@@ -430,7 +430,7 @@ RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(unsigned features, const Lig
         Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
         ShadeMaterial material = {pigment, pigment, tile->finish[i]};
         ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
-        shade_set_mirror(features, &material, &at, &scatter);
+        shade_set_mirror(p, features, &material, &at, &scatter);
     }
     return scatter;
 }
@@ -505,7 +505,7 @@ RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, cons
     for (int i = 0; i < surfaces->count; i++) {
         unsigned ray = surfaces->ray[i];
         TileWaiting through;
-        ScatterRecord scatter = shade_tile_secondary(features, tile, clear, i);
+        ScatterRecord scatter = shade_tile_secondary(p, features, tile, clear, i);
         bool passes = shade_tile_passes(p, tile, paths, clear, i, &scatter, &through, statistics);
         own[rays->count] = (uint8_t)ray;
         if ((features & RENDER_REFLECTION) && shade_tile_reflects(p, ray, &scatter, paths, clear, statistics)) {

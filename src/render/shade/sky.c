@@ -93,13 +93,30 @@ static double fog_depth(const Prepared *p, const Fog *fog, const Ray *ray, doubl
     return ground_depth(fog->alt, vec3_dot(ray->direction, fog->up), height - fog->offset, way);
 }
 
+// How much of the fog's depth turbulence takes away: the more the shorter the way. Measured.
+static double turbulent_share(const Prepared *p, const Fog *fog, const Ray *ray, double way)
+{
+    Octaves octaves = {fog->lambda, fog->omega, (unsigned)fog->octaves};
+    Vec3 start = vec3_sub(vec3_scale(p->textures.scale, ray->origin), fog->origin);
+    Vec3 middle = vec3_add_scaled(start, way / 2.0, ray->direction);
+    double sum = noise_sum(p->textures.source.noise, p->textures.source.generator, &octaves,
+                           vec3_mul(fog->turbulence, middle));
+    return exp(-way / fog->distance) * less_of(fog->turb_depth * sum, 1.0);
+}
+
+static double loss_depth(const Prepared *p, const Fog *fog, const Ray *ray, double way)
+{
+    double depth = fog_depth(p, fog, ray, way);
+    return fog->is_turbulent && !isinf(way) ? depth * (1.0 - turbulent_share(p, fog, ray, way)) : depth;
+}
+
 FogShare fog_between(const Prepared *p, const Ray *ray, double way)
 {
     FogShare sum = {rgb_grey(1.0), rgb_grey(0.0)};
     for (size_t i = 0; i < p->scene->fogs.count; i++) {
         const Fog *fog = &p->scene->fogs.items[i];
         Rgb colour = rgbft_rgb(fog->colour);
-        double left = greater_of(exp(-fog_depth(p, fog, ray, way) / fog->distance), fog->colour.transmit);
+        double left = greater_of(exp(-loss_depth(p, fog, ray, way) / fog->distance), fog->colour.transmit);
         Rgb tint = rgb_add(rgb_grey(1.0 - fog->colour.filter), rgb_scale(fog->colour.filter, colour));
         sum.through = rgb_mul(sum.through, rgb_scale(left, tint));
         sum.own = rgb_add_scaled(sum.own, 1.0 - left, colour);

@@ -11,8 +11,10 @@
 #include "base/attributes.h"
 #include "base/isa.h"
 #include "math/rest.h"
+#include "render/surface/formula.h"
 #include "render/surface/normal_special.h"
 #include "render/surface/pattern_noise.h"
+#include "render/surface/warp.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -195,6 +197,9 @@ static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_CELLS] = pattern_cells,
     [PATTERN_CRACKLE] = pattern_crackle,
     [PATTERN_SPIRAL1] = pattern_spiral1,
+    [PATTERN_SPIRAL2] = pattern_spiral2,
+    [PATTERN_FUNCTION] = formula_value,
+    [PATTERN_PIGMENT] = formula_pigment,
     [PATTERN_MANDEL] = mandel,
     [PATTERN_JULIA] = julia,
     [PATTERN_QUILTED] = quilted,
@@ -238,6 +243,9 @@ bool pattern_needs_waves(const Pattern *pattern)
 // Turbulence moves a point last, in the pattern's own space, wherever it was said.
 Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
+    if (pattern->warps) {
+        point = warp_point(pattern, source, point);
+    }
     bool is_moved = has_turbulence(pattern) && !pattern_info((PatternType)pattern->type)->has_own_turbulence;
     return is_moved ? pattern_turbulent(pattern, source, point) : point;
 }

@@ -9,8 +9,11 @@
 
 #include "math/noise.h"
 #include "math/vec3.h"
+#include "math/transform.h"
 #include "render/surface/escape_kernel.h"
+#include "scene/formula.h"
 #include "scene/pattern.h"
+#include "scene/warp.h"
 
 // Whether a pattern's value depends on noise.
 bool pattern_needs_noise(const Pattern *pattern);
@@ -24,6 +27,11 @@ typedef struct NoiseSource {
     const WaveSource *waves;  // NULL when no pattern of the scene has waves
     unsigned wave_count;
     const EscapeKernel *escape;
+    // What patterns are made of that others lie behind: the scene's records, and the textures themselves.
+    const Warp *warps;
+    const Transform *warp_back; // of each warp, into the space behind it
+    const FormulaStep *steps;
+    const struct TextureTable *table;
 } NoiseSource;
 
 // The point at which a pattern is looked at: moved, if it has turbulence that is no part of its formula.

@@ -82,6 +82,18 @@ double pattern_spiral1(const Pattern *pattern, const NoiseSource *source, Vec3 p
     return p.z + sqrt(p.x * p.x + p.y * p.y) + arms + turbulent_part(pattern, source, p);
 }
 
+static double triangle_wave(double x)
+{
+    x -= floor(x);
+    return x < 0.5 ? 2.0 * x : 2.0 - 2.0 * x;
+}
+
+// Rings, and the arms of spiral1 upon them. Measured.
+double pattern_spiral2(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return triangle_wave(sqrt(p.x * p.x + p.y * p.y)) + triangle_wave(pattern_spiral1(pattern, source, p));
+}
+
 double pattern_wood(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     if (vec3_max_abs(pattern->turbulence) > 0.0) {

@@ -26,6 +26,7 @@ double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p
 double pattern_agate(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_marble(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_spiral1(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_spiral2(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_wood(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_dents(const Pattern *pattern, const NoiseSource *source, Vec3 p);

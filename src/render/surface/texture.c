@@ -55,9 +55,29 @@ static bool find_waves(TextureTable *table, const Scene *scene)
     return true;
 }
 
+// Whether something else than a pattern's own turbulence and formula asks for noise.
+static bool asks_for_noise(const Scene *scene)
+{
+    bool found = false;
+    for (size_t i = 0; !found && i < scene->warps.count; i++) {
+        found = scene->warps.items[i].type == WARP_TURBULENCE;
+    }
+    for (size_t i = 0; !found && i < scene->formula_steps.count; i++) {
+        uint32_t op = scene->formula_steps.items[i].op;
+        found = op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN;
+    }
+    for (size_t i = 0; !found && i < scene->fogs.count; i++) {
+        found = scene->fogs.items[i].is_turbulent;
+    }
+    for (size_t i = 0; !found && i < scene->finishes.count; i++) {
+        found = scene->finishes.items[i].irid > 0.0 && scene->finishes.items[i].irid_turbulence != 0.0;
+    }
+    return found;
+}
+
 static bool find_noise(TextureTable *table, const Scene *scene, const Noise *noise, const char *isa)
 {
-    if (!any_pattern(scene, pattern_needs_noise)) {
+    if (!any_pattern(scene, pattern_needs_noise) && !asks_for_noise(scene)) {
         return true;
     }
     NoiseGenerator usual = scene->settings.version < 3.5 ? NOISE_ORIGINAL : NOISE_CORRECTED;
@@ -124,12 +144,21 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     table->texture_to_pattern = malloc((scene->textures.count + 1) * sizeof *table->texture_to_pattern);
     table->normal_to_pattern = malloc((scene->normals.count + 1) * sizeof *table->normal_to_pattern);
     table->images = images_new(scene);
+    table->warp_back = malloc((scene->warps.count + 1) * sizeof *table->warp_back);
     if (!find_lists(table, scene) || !table->to_pattern || !table->opaque || !table->texture_to_pattern ||
-        !table->normal_to_pattern || !table->images || !find_noise(table, scene, noise, isa)) {
+        !table->normal_to_pattern || !table->images || !table->warp_back ||
+        !find_noise(table, scene, noise, isa)) {
         texture_table_fini(table);
         return false;
     }
     table->source.escape = escape_kernel_choose(isa);
+    table->source.warps = scene->warps.items;
+    table->source.warp_back = table->warp_back;
+    table->source.steps = scene->formula_steps.items;
+    table->source.table = table;
+    for (size_t i = 0; i < scene->warps.count; i++) {
+        table->warp_back[i] = way_back(&scene->warps.items[i].to_outside);
+    }
     table->goes_abreast = any_pattern(scene, pattern_goes_abreast);
     for (size_t i = 0; i < scene->patterns.count; i++) {
         table->to_pattern[i] = way_back(&scene->patterns.items[i].to_world);
@@ -152,6 +181,7 @@ void texture_table_fini(TextureTable *table)
     free(table->opaque);
     free(table->texture_to_pattern);
     free(table->normal_to_pattern);
+    free(table->warp_back);
     arena_fini(&table->along);
     images_free(table->images, table->scene ? table->scene->image_maps.count : 0);
     *table = (TextureTable){0};

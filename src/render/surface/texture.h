@@ -18,7 +18,8 @@
 #include "render/surface/pattern.h"
 #include "scene/scene.h"
 
-typedef struct TextureTable {
+typedef struct TextureTable TextureTable;
+struct TextureTable {
     const Scene *scene;
     double scale;      // from prepared lengths to the scene's, a power of two
     Noise *noise;      // its own, or NULL
@@ -32,7 +33,8 @@ typedef struct TextureTable {
     Transform *normal_to_pattern;  // for each of its normals
     const AlongList *pattern_lists, *texture_lists, *normal_lists, *slope_lists; // for each of these, too
     Arena along;                                                                 // what these refer to
-} TextureTable;
+    Transform *warp_back; // for each of its warps
+};
 
 // Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what
 // it needs, for the instruction set of that name. False when out of memory.

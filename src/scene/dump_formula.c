@@ -1,0 +1,273 @@
+// Formulas and warps as `.scn` text.
+//
+// A formula is written as the expression that gives the same steps; what it calls, and the patterns and pigments that
+// it asks, are functions that are declared before. Knows only what it writes of the language.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/dump.h"
+
+#include <stdlib.h>
+
+static const char *const infix[FORMULA_OPS] = {
+    [FORMULA_ADD] = "+", [FORMULA_SUB] = "-", [FORMULA_MUL] = "*", [FORMULA_DIV] = "/",
+    [FORMULA_EQ] = "=",  [FORMULA_NE] = "!=", [FORMULA_LT] = "<",  [FORMULA_LE] = "<=",
+    [FORMULA_GT] = ">",  [FORMULA_GE] = ">=", [FORMULA_AND] = "&", [FORMULA_OR] = "|",
+};
+
+static const char *const words[FORMULA_OPS] = {
+    [FORMULA_ATAN2] = "atan2",     [FORMULA_POW] = "pow",         [FORMULA_MOD] = "mod",
+    [FORMULA_QUOTIENT] = "div",    [FORMULA_MIN] = "min",         [FORMULA_MAX] = "max",
+    [FORMULA_NEG] = "-",           [FORMULA_ABS] = "abs",         [FORMULA_SIN] = "sin",
+    [FORMULA_COS] = "cos",         [FORMULA_TAN] = "tan",         [FORMULA_ASIN] = "asin",
+    [FORMULA_ACOS] = "acos",       [FORMULA_ATAN] = "atan",       [FORMULA_SINH] = "sinh",
+    [FORMULA_COSH] = "cosh",       [FORMULA_TANH] = "tanh",       [FORMULA_ASINH] = "asinh",
+    [FORMULA_ACOSH] = "acosh",     [FORMULA_ATANH] = "atanh",     [FORMULA_EXP] = "exp",
+    [FORMULA_LN] = "ln",           [FORMULA_LOG] = "log",         [FORMULA_SQRT] = "sqrt",
+    [FORMULA_FLOOR] = "floor",     [FORMULA_CEIL] = "ceil",       [FORMULA_INT] = "int",
+    [FORMULA_DEGREES] = "degrees", [FORMULA_RADIANS] = "radians", [FORMULA_SELECT3] = "select",
+    [FORMULA_SELECT4] = "select",
+};
+
+// The arguments of functions: those of a pattern's own have the first three.
+static const char *const slot_words[] = {"x", "y", "z"};
+
+typedef struct Writer {
+    const Scene *scene;
+    TextBuffer *out;
+    const FormulaStep **steps; // of the formula that is written, in order
+    bool is_pattern;           // its arguments are x, y and z
+} Writer;
+
+static unsigned takes(const FormulaStep *step)
+{
+    FormulaOp op = (FormulaOp)step->op;
+    return op <= FORMULA_SLOT                                    ? 0
+           : op <= FORMULA_MAX                                   ? 2
+           : op <= FORMULA_RADIANS                               ? 1
+           : op == FORMULA_CALL                                  ? (unsigned)step->number
+           : op == FORMULA_SELECT4 || op == FORMULA_NOISE_CHOSEN ? 4
+                                                                 : 3;
+}
+
+// The place before the first of the steps that give what step `last` does.
+static size_t begin_of(const Writer *writer, size_t last)
+{
+    size_t wanted = 1;
+    for (size_t i = last + 1; wanted > 0; i--) {
+        wanted = wanted - 1 + takes(writer->steps[i - 1]);
+        if (wanted == 0) {
+            return i - 1;
+        }
+    }
+    return 0;
+}
+
+static void write_value(const Writer *writer, size_t last);
+
+// With an operator between them, or a comma where that is NULL.
+static void write_arguments(const Writer *writer, size_t last, const char *operator)
+{
+    size_t ends[64], end = last, count = takes(writer->steps[last]);
+    for (size_t i = count; i-- > 0; end = begin_of(writer, end - 1)) {
+        ends[i] = end - 1;
+    }
+    text_append(writer->out, "(");
+    for (size_t i = 0; i < count; i++) {
+        if (i > 0) {
+            text_printf(writer->out, "%s%s ", operator ? " " : "", operator ? operator : ",");
+        }
+        write_value(writer, ends[i]);
+    }
+    text_append(writer->out, ")");
+}
+
+static void write_component(const FormulaStep *step, TextBuffer *out)
+{
+    static const char *const parts[] = {".red", ".green", ".blue", ".filter", ".transmit", ".gray", ".hf"};
+    text_append(out, step->op == FORMULA_PIGMENT ? parts[(unsigned)step->number] : "");
+}
+
+static void write_value(const Writer *writer, size_t last)
+{
+    const FormulaStep *step = writer->steps[last];
+    TextBuffer *out = writer->out;
+    switch ((FormulaOp)step->op) {
+    case FORMULA_NUMBER:
+        dump_number(out, "", step->number);
+        return;
+    case FORMULA_SLOT:
+        if (writer->is_pattern) {
+            text_append(out, slot_words[step->which]);
+        } else {
+            text_printf(out, "A%lu", (unsigned long)step->which);
+        }
+        return;
+    case FORMULA_CALL:
+        text_printf(out, "G%lu", (unsigned long)step->which);
+        break;
+    case FORMULA_PATTERN:
+        text_printf(out, "Q%lu", (unsigned long)step->which);
+        break;
+    case FORMULA_PIGMENT:
+        text_printf(out, "R%lu", (unsigned long)step->which);
+        break;
+    default:
+        text_append(out, words[step->op] ? words[step->op] : "");
+        break;
+    }
+    write_arguments(writer, last, infix[step->op]);
+    write_component(step, out);
+}
+
+static void write_body(const Scene *scene, uint32_t first, bool is_pattern, TextBuffer *out)
+{
+    size_t count = 0;
+    for (uint32_t i = first; i != RECORD_NONE; i = scene->formula_steps.items[i].next) {
+        count++;
+    }
+    Writer writer = {scene, out, malloc((count + 1) * sizeof *writer.steps), is_pattern};
+    if (!writer.steps) {
+        out->failed = true;
+        return;
+    }
+    count = 0;
+    for (uint32_t i = first; i != RECORD_NONE; i = scene->formula_steps.items[i].next) {
+        writer.steps[count++] = &scene->formula_steps.items[i];
+    }
+    write_value(&writer, count - 1);
+    free(writer.steps);
+}
+
+// Noise is all that a function does that has it: one of those that POV-Ray has built in.
+static bool write_given(const Scene *scene, uint32_t first, TextBuffer *out)
+{
+    const FormulaStep *step = &scene->formula_steps.items[first];
+    while (step->next != RECORD_NONE) {
+        step = &scene->formula_steps.items[step->next];
+    }
+    bool is_given = step->op == FORMULA_NOISE || step->op == FORMULA_NOISE_CHOSEN;
+    text_append(out, !is_given ? "" : step->op == FORMULA_NOISE ? "{ internal(76) }" : "{ internal(78) }");
+    return is_given;
+}
+
+static void declare_call(const Scene *scene, const FormulaStep *step, TextBuffer *out)
+{
+    text_printf(out, "#ifndef (G%lu) ", (unsigned long)step->which);
+    text_printf(out, "#declare G%lu = function ", (unsigned long)step->which);
+    if (write_given(scene, step->which, out)) {
+        text_append(out, " #end\n");
+        return;
+    }
+    text_append(out, "(");
+    for (unsigned i = 0; i < (unsigned)step->number; i++) {
+        text_printf(out, "%sA%u", i > 0 ? ", " : "", i);
+    }
+    text_append(out, ") { ");
+    write_body(scene, step->which, false, out);
+    text_append(out, " } #end\n");
+}
+
+// What a formula calls, before it.
+static void declare_parts(const Scene *scene, uint32_t first, TextBuffer *out)
+{
+    for (uint32_t i = first; i != RECORD_NONE; i = scene->formula_steps.items[i].next) {
+        const FormulaStep *step = &scene->formula_steps.items[i];
+        switch ((FormulaOp)step->op) {
+        case FORMULA_CALL:
+            declare_parts(scene, step->which, out);
+            declare_call(scene, step, out);
+            break;
+        case FORMULA_PATTERN:
+            text_printf(out, "#ifndef (Q%lu) #declare Q%lu = function { pattern {\n", (unsigned long)step->which,
+                        (unsigned long)step->which);
+            dump_pattern(scene, &scene->patterns.items[step->which], out);
+            text_append(out, "} } #end\n");
+            break;
+        case FORMULA_PIGMENT:
+            text_printf(out, "#ifndef (R%lu) #declare R%lu = function { pigment { P%lu } } #end\n",
+                        (unsigned long)step->which, (unsigned long)step->which, (unsigned long)step->which + 1);
+            break;
+        default:
+            break;
+        }
+    }
+}
+
+void dump_formula_parts(const Scene *scene, const Pattern *pattern, TextBuffer *out)
+{
+    if (pattern->type == PATTERN_FUNCTION) {
+        declare_parts(scene, pattern->image, out);
+    }
+}
+
+void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out)
+{
+    text_append(out, "  function ");
+    if (write_given(scene, pattern->image, out)) {
+        return;
+    }
+    text_append(out, "{ ");
+    write_body(scene, pattern->image, true, out);
+    text_append(out, " }");
+}
+
+// ---- warps
+
+static void dump_warp(const Warp *warp, TextBuffer *out)
+{
+    switch ((WarpType)warp->type) {
+    case WARP_TURBULENCE:
+        dump_vector(out, "  warp { turbulence ", warp->vector);
+        dump_number(out, " lambda ", warp->lambda);
+        dump_number(out, " omega ", warp->omega);
+        text_printf(out, " octaves %lu }\n", (unsigned long)warp->octaves);
+        return;
+    case WARP_REPEAT:
+        dump_vector(out, "  warp { repeat ", warp->vector);
+        dump_vector(out, " offset ", warp->offset);
+        dump_vector(out, " flip ", warp->flip);
+        text_append(out, " }\n");
+        return;
+    case WARP_BLACK_HOLE:
+        dump_vector(out, "  warp { black_hole ", warp->vector);
+        dump_number(out, ", ", warp->radius);
+        dump_number(out, " strength ", warp->strength);
+        dump_number(out, " falloff ", warp->power);
+        text_append(out, warp->flags & WARP_INVERSE ? " inverse }\n" : " }\n");
+        return;
+    case WARP_PLANAR:
+        dump_vector(out, "  warp { planar ", warp->vector);
+        dump_number(out, ", ", warp->radius);
+        text_append(out, " }\n");
+        return;
+    default:
+        break;
+    }
+    text_append(out, warp->type == WARP_CYLINDRICAL ? "  warp { cylindrical"
+                     : warp->type == WARP_SPHERICAL ? "  warp { spherical"
+                                                    : "  warp { toroidal");
+    dump_vector(out, " orientation ", warp->vector);
+    dump_number(out, " dist_exp ", warp->exponent);
+    if (warp->type == WARP_TOROIDAL) {
+        dump_number(out, " major_radius ", warp->radius);
+    }
+    text_append(out, " }\n");
+}
+
+// The last in the list was said first.
+static void dump_from(const Scene *scene, uint32_t index, TextBuffer *out)
+{
+    const Warp *warp = &scene->warps.items[index];
+    if (warp->next != RECORD_NONE) {
+        dump_from(scene, warp->next, out);
+    }
+    dump_matrix(&warp->to_outside, out);
+    dump_warp(warp, out);
+}
+
+void dump_warps(const Scene *scene, const Pattern *pattern, TextBuffer *out)
+{
+    if (pattern->warps) {
+        dump_from(scene, pattern->warps - 1, out);
+    }
+}
