@@ -65,6 +65,7 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
     text_init(&session->said);
     text_init(&session->left_out);
     text_init(&session->note);
+    picture_reader_init(&session->reader, &session->cancel);
     session->sources = source_map_new();
     session->names = intern_new(session->limits.memory_most);
     diag_init(&session->diags, session->sources);
@@ -277,6 +278,7 @@ static rt_status load(rt_session *session, void *argument)
     scene->whole = SPAN_WHOLE(source_base(source));
     bool fine = session_evaluate(session, source, scene, session->is_built ? scene->settings.version : 0.0) &&
                 (session->is_built || check_whole(session, true)) && session_load_pictures(session, scene);
+    picture_reader_end(&session->reader);
     diag_finish(&session->diags);
     session->frames.source_count = source_map_count(session->sources);
     session->loaded = fine;

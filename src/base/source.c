@@ -16,6 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/real_path.h"
 #include "base/source_map.h"
 
 SourceMap *source_map_new(void)
@@ -216,42 +217,13 @@ SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_b
     return source_opened(map, path, file, limit_bytes, source, error_number);
 }
 
-// Opens a path in which nothing is a link, part by part. A pipe is opened without waiting for its writer.
-static int open_real(const char *real)
-{
-    char part[NAME_MAX + 1];
-    int folder = open("/", O_PATH | O_DIRECTORY | O_CLOEXEC);
-    for (real++; folder >= 0 && *real != '\0'; real++) {
-        size_t length = strcspn(real, "/");
-        bool is_last = real[length] == '\0';
-        if (length >= sizeof part) {
-            close(folder);
-            errno = ENAMETOOLONG;
-            return NO_FILE;
-        }
-        memcpy(part, real, length);
-        part[length] = '\0';
-        int flags = is_last ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
-        int next = openat(folder, part, flags | O_NOFOLLOW | O_CLOEXEC);
-        int error_number = errno;
-        close(folder);
-        errno = error_number;
-        folder = next;
-        if (is_last) {
-            break;
-        }
-        real += length;
-    }
-    return folder;
-}
-
 SourceResult source_open_real(SourceMap *map, const char *real, const char *name, uint64_t limit_bytes, Source **source,
                               int *error_number)
 {
     struct stat status;
     *source = NULL;
     *error_number = 0;
-    int file = is_cancelled(map) ? NO_FILE : open_real(real);
+    int file = is_cancelled(map) ? NO_FILE : real_path_open(real);
     bool is_known = file >= 0 && fstat(file, &status) == 0;
     if (is_known && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
         close(file);

@@ -85,7 +85,7 @@ struct Options {
     bool is_lenient;
     uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
     double max_time; // seconds of the whole run; 0: as many as it takes
-    bool is_untrusted, is_unconfined;
+    bool is_untrusted, is_unconfined, has_no_readers;
     bool quiet;
     OptionReading reading;
 };

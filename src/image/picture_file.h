@@ -44,4 +44,11 @@ void picture_file_fini(PictureFile *file); // releases the samples
 ImageStatus picture_file_read(const char *path, const char *format, const PictureLimit *limit, PictureFile *file,
                               ImageError *error) RT_MUST_CHECK;
 
+// The same for a path in which nothing is a link, as realpath gives it; a link that is there by now is an error.
+ImageStatus picture_file_read_real(const char *real, const char *format, const PictureLimit *limit, PictureFile *file,
+                                   ImageError *error) RT_MUST_CHECK;
+
+// What of that is told by the file's first bytes: IMAGE_OK when it can be opened and may be of the format.
+ImageStatus picture_file_begins(const char *real, const char *format, ImageError *error) RT_MUST_CHECK;
+
 #endif

@@ -492,7 +492,15 @@ bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
     return is_found && !ev->stop;
 }
 
-const char *file_find(Eval *ev, const AstNode *name_node, const char *text, const char *const *endings)
+// A text that is kept as long as the names are; NULL when out of memory.
+static const char *keep_text(Eval *ev, const TextBuffer *text)
+{
+    Symbol symbol = intern_text(ev->options.names, text_get(text), text->length);
+    return symbol != SYMBOL_NONE ? eval_text(ev, symbol) : NULL;
+}
+
+const char *file_find(Eval *ev, const AstNode *name_node, const char *text, const char *const *endings,
+                      const char **real)
 {
     if (!eval_work(ev, WORK_OF_A_FILE, name_node->span)) {
         return NULL;
@@ -509,8 +517,8 @@ const char *file_find(Eval *ev, const AstNode *name_node, const char *text, cons
     } else if (!is_found) {
         report_missing(ev, &search, FILE_IMAGE, name_node);
     } else if (may_read(ev, text_get(&search.path), name_node->span)) {
-        Symbol symbol = intern_text(ev->options.names, text_get(&search.path), search.path.length);
-        path = symbol != SYMBOL_NONE ? eval_text(ev, symbol) : NULL;
+        *real = keep_text(ev, &ev->files->real);
+        path = *real ? keep_text(ev, &search.path) : NULL;
         if (path == NULL) {
             eval_no_memory(ev, name_node->span);
         }

@@ -298,8 +298,9 @@ const char *file_folder(const Eval *ev, size_t i);
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MUST_CHECK;
 
 // The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a
-// list that NULL ends is added in turn. `node` is the expression that gave the name.
-const char *file_find(Eval *ev, const AstNode *node, const char *name, const char *const *endings) RT_MUST_CHECK;
+// list that NULL ends is added in turn. `node` is the expression that gave the name; *real is the path without links.
+const char *file_find(Eval *ev, const AstNode *node, const char *name, const char *const *endings,
+                      const char **real) RT_MUST_CHECK;
 
 // #fopen, #fclose, #read and #write
 void data_file_run(Cursor *cursor, const AstNode *node);
