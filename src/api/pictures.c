@@ -238,7 +238,7 @@ static bool picture_load(rt_session *session, Scene *scene, size_t index)
     const PictureSource *source = &scene->picture_sources.items[index];
     Picture *picture = &scene->pictures.items[index];
     uint64_t used = scene_bytes(scene), most = session_memory_granted(session);
-    PictureLimit limit = {.pixels = UINT64_MAX, .bytes = most > used ? most - used : 0};
+    PictureLimit limit = {UINT64_MAX, most > used ? most - used : 0, &session->cancel};
     PictureFile file;
     ImageError error;
     if (session->is_untrusted && source->format != PICTURE_PNG) {

@@ -457,7 +457,8 @@ static rt_status render_scene(rt_session *session, void *argument)
     bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
                     session->precision == RT_PRECISION_DOUBLE;
     GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL,
-                                .rays = session_camera_rays(session), .kept = is_spent ? NULL : &session->kept};
+                                .rays = session_camera_rays(session), .kept = is_spent ? NULL : &session->kept,
+                                .cancel = &session->cancel};
     OverlayOptions overlay = session->overlay;
     overlay_find_reach(&overlay, &session->scene);
     Prepared *prepared = prepared_new(&session->scene, &geometry);
@@ -466,7 +467,9 @@ static rt_status render_scene(rt_session *session, void *argument)
                                 session_film_planes(session))) {
         film_fini(film);
         prepared_free(prepared);
-        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
+        if (prepared || !atomic_load(&session->cancel)) {
+            diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
+        }
         return session_status(session, false);
     }
     prepared_seed(prepared, session->sampling.seed);

@@ -365,7 +365,7 @@ bool source_digest(const Source *source, unsigned char out[DIGEST_BYTES])
     digest_init(&digest);
     for (uint64_t at = 0; at < source->size; at += BLOCK) {
         size_t part = source->size - at < BLOCK ? (size_t)(source->size - at) : BLOCK;
-        if (!source_read_at(source, at, block, part)) {
+        if (is_cancelled(source->map) || !source_read_at(source, at, block, part)) {
             return false;
         }
         digest_add(&digest, block, part);

@@ -13,6 +13,13 @@
 #include "base/attributes.h"
 #include "image/image.h"
 
+#ifdef __cplusplus
+typedef struct PictureFlag PictureFlag; // C++ has another; it does not look at it
+#else
+#include <stdatomic.h>
+typedef atomic_bool PictureFlag;
+#endif
+
 enum { PICTURE_PALETTE_MAX = 256 };
 
 typedef struct PictureFile {
@@ -32,6 +39,7 @@ typedef struct PictureFile {
 
 typedef struct PictureLimit {
     uint64_t pixels, bytes; // of the picture; of its samples
+    const PictureFlag *cancel; // reading gives up, as if it had failed, when this is set; NULL: never
 } PictureLimit;
 
 // Room for the samples of a picture whose size is set, judged before memory is asked for.

@@ -310,7 +310,7 @@ static bool is_started(PictureReader *reader, const char *format, ImageError *er
 ImageStatus picture_reader_read(PictureReader *reader, const char *real, const char *format, const PictureLimit *limit,
                                 PictureFile *file, ImageError *error)
 {
-    Request request = {.limit = *limit};
+    Request request = {.limit = {.pixels = limit->pixels, .bytes = limit->bytes}};
     Reply reply;
     uint64_t room = limit->bytes < INT64_MAX / 4 ? limit->bytes : INT64_MAX / 4;
     *file = (PictureFile){0};

@@ -176,9 +176,10 @@ static bool run_round(Sampling *s)
     return is_whole;
 }
 
-// Traces what changes no pixel; false when it was cancelled.
+// Traces what changes no pixel, so that any ray may be left out; false when it was cancelled.
 static bool trace_beside(Sampling *s, Traces traces)
 {
+    bool keeps = atomic_exchange(&s->prepared->abandon->keeps, false);
     TileWork work = {s, s->prepared, s->film->width, s->film->height, trace_tile, NULL};
     if (traces == TRACES_REPLICAS) { // a row of picks, which are anywhere
         work.width = s->audit.count;
@@ -187,6 +188,7 @@ static bool trace_beside(Sampling *s, Traces traces)
     s->traces = traces;
     RenderResult result = tiles_run(&work, s->options, &s->audited);
     s->traces = TRACES_ROUND;
+    atomic_store(&s->prepared->abandon->keeps, keeps);
     s->result = result == RENDER_NO_MEMORY ? result : s->result;
     return result == RENDER_OK;
 }

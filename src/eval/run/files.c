@@ -314,6 +314,13 @@ static bool find(const Eval *ev, Search *search, const char *ending)
 // Looking for a file and opening it takes as long as so many bytes of strings: 200 steps, 15 microseconds.
 enum { WORK_OF_A_FILE = 200 * 256 };
 
+// The name is looked through for each folder; it may be as long as a string.
+static bool take_work(Eval *ev, const char *name, Span span)
+{
+    enum { WORK_OF_A_LETTER = 64 };
+    return eval_work(ev, WORK_OF_A_FILE + WORK_OF_A_LETTER * strlen(name), span);
+}
+
 // Memory ran out, so that a file may not have been found.
 static bool search_failed(const Eval *ev, const Search *search)
 {
@@ -322,7 +329,7 @@ static bool search_failed(const Eval *ev, const Search *search)
 
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there)
 {
-    if (!eval_work(ev, WORK_OF_A_FILE, span)) {
+    if (!take_work(ev, name->text, span)) {
         return false;
     }
     Search search = {.name = name->text};
@@ -473,7 +480,7 @@ static bool open_found(Eval *ev, const char *path, FileUse use, Span span, Sourc
 bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
 {
     Value name;
-    if (!eval_string(ev, name_node, &name) || !eval_work(ev, WORK_OF_A_FILE, name_node->span)) {
+    if (!eval_string(ev, name_node, &name) || !take_work(ev, name.text, name_node->span)) {
         return false;
     }
     Search search = {.name = name.text};
@@ -502,7 +509,7 @@ static const char *keep_text(Eval *ev, const TextBuffer *text)
 const char *file_find(Eval *ev, const AstNode *name_node, const char *text, const char *const *endings,
                       const char **real)
 {
-    if (!eval_work(ev, WORK_OF_A_FILE, name_node->span)) {
+    if (!take_work(ev, text, name_node->span)) {
         return NULL;
     }
     Search search = {.name = text};
