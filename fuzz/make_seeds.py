@@ -5,13 +5,14 @@ Usage: make_seeds.py TOP FOLDER. SPDX-License-Identifier: MIT
 """
 import glob
 import os
+import random
 import re
 import struct
 import sys
 import zlib
 
 # Each target, and the kind of its files.
-TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "picture": "picture", "ini": "ini"}
+TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "world": "text", "calls": "calls", "picture": "picture", "ini": "ini"}
 
 
 def lang_cases(top):
@@ -68,12 +69,20 @@ def option_files(top):
             yield "key-%03d.ini" % number, b"%s=On\n%s=1\n%s=0.5\n" % (key, key, key)
 
 
+def calls():
+    """Orders of calls of rtlang.h, by chance."""
+    chance = random.Random(1)
+    for number in range(200):
+        yield "%03d" % number, chance.randbytes(chance.randrange(50, 1500))
+
+
 def write_seeds(top, folder):
     texts = list(lang_cases(top))
     for path in sorted(glob.glob(os.path.join(top, "examples", "*.scn"))):
         with open(path, "rb") as file:
             texts.append((os.path.basename(path), file.read()))
-    for kind, files in {"text": texts, "picture": pictures(top), "ini": option_files(top)}.items():
+    for kind, files in {"text": texts, "picture": pictures(top), "ini": option_files(top),
+                        "calls": calls()}.items():
         os.makedirs(os.path.join(folder, kind), exist_ok=True)
         for name, data in files:
             with open(os.path.join(folder, kind, name), "wb") as file:
