@@ -79,7 +79,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     PictureFile file = {0};
     Image image = {0};
     ImageError error = {{0}, false};
-    PictureLimit limit = {PIXELS, PIXELS * 8};
+    PictureLimit limit = {PIXELS, PIXELS * 8, NULL};
     if (fd < 0) {
         return 0;
     }

@@ -7,8 +7,9 @@ LIB_FUZZING_ENGINE =
 fuzz_ini_sources = src/cli/povray_ini.c src/cli/povray_read.c src/cli/povray_table.c src/cli/povray_value.c \
   src/cli/terminal.c
 fuzz_replays = fuzz/replay_grammar fuzz/replay_scene fuzz/replay_dump fuzz/replay_picture fuzz/replay_ini \
-  fuzz/replay_partial
-fuzz_targets = fuzz/fuzz_grammar fuzz/fuzz_scene fuzz/fuzz_dump fuzz/fuzz_picture fuzz/fuzz_ini fuzz/fuzz_partial
+  fuzz/replay_partial fuzz/replay_world fuzz/replay_calls
+fuzz_targets = fuzz/fuzz_grammar fuzz/fuzz_scene fuzz/fuzz_dump fuzz/fuzz_picture fuzz/fuzz_ini fuzz/fuzz_partial \
+  fuzz/fuzz_world fuzz/fuzz_calls
 check_PROGRAMS += $(fuzz_replays)
 EXTRA_PROGRAMS += $(fuzz_targets)
 fuzz_replay_grammar_SOURCES = %D%/fuzz_grammar.c %D%/fuzz.h %D%/replay.c
@@ -17,6 +18,10 @@ fuzz_replay_scene_SOURCES = %D%/fuzz_scene.c %D%/fuzz.h %D%/replay.c
 fuzz_replay_scene_LDADD = libapi.la
 fuzz_replay_dump_SOURCES = %D%/fuzz_dump.c %D%/fuzz.h %D%/replay.c
 fuzz_replay_dump_LDADD = libapi.la
+fuzz_replay_world_SOURCES = %D%/fuzz_world.c %D%/fuzz.h %D%/replay.c
+fuzz_replay_world_LDADD = libapi.la
+fuzz_replay_calls_SOURCES = %D%/fuzz_calls.c %D%/fuzz.h %D%/replay.c
+fuzz_replay_calls_LDADD = libapi.la
 fuzz_replay_picture_SOURCES = %D%/fuzz_picture.c %D%/fuzz.h %D%/replay.c
 fuzz_replay_picture_LDADD = libimage.la libmath.la libbase.la
 fuzz_replay_ini_SOURCES = %D%/fuzz_ini.c %D%/fuzz.h %D%/replay.c $(fuzz_ini_sources)
@@ -29,6 +34,10 @@ fuzz_fuzz_scene_SOURCES = %D%/fuzz_scene.c %D%/fuzz.h
 fuzz_fuzz_scene_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
 fuzz_fuzz_dump_SOURCES = %D%/fuzz_dump.c %D%/fuzz.h
 fuzz_fuzz_dump_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
+fuzz_fuzz_world_SOURCES = %D%/fuzz_world.c %D%/fuzz.h
+fuzz_fuzz_world_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
+fuzz_fuzz_calls_SOURCES = %D%/fuzz_calls.c %D%/fuzz.h
+fuzz_fuzz_calls_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
 # The module that reads JPEG is loaded, and calls the fuzzer for what it covers.
 fuzz_fuzz_picture_SOURCES = %D%/fuzz_picture.c %D%/fuzz.h
 fuzz_fuzz_picture_LDADD = libimage.la libmath.la libbase.la $(LIB_FUZZING_ENGINE)

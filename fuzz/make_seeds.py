@@ -6,14 +6,15 @@ Usage: make_seeds.py TOP FOLDER. SPDX-License-Identifier: MIT
 import glob
 import hashlib
 import os
+import random
 import re
 import struct
 import sys
 import zlib
 
 # Each target, and the kind of its files.
-TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "picture": "picture", "ini": "ini",
-           "partial": "partial"}
+TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "world": "text", "calls": "calls", "picture": "picture",
+           "ini": "ini", "partial": "partial"}
 
 
 def lang_cases(top):
@@ -86,13 +87,20 @@ def partials():
     yield "cut", (head + sealed(head) + records)[:-7]
 
 
+def calls():
+    """Orders of calls of rtlang.h, by chance."""
+    chance = random.Random(1)
+    for number in range(200):
+        yield "%03d" % number, chance.randbytes(chance.randrange(50, 1500))
+
+
 def write_seeds(top, folder):
     texts = list(lang_cases(top))
     for path in sorted(glob.glob(os.path.join(top, "examples", "*.scn"))):
         with open(path, "rb") as file:
             texts.append((os.path.basename(path), file.read()))
     for kind, files in {"text": texts, "picture": pictures(top), "ini": option_files(top),
-                        "partial": partials()}.items():
+                        "partial": partials(), "calls": calls()}.items():
         os.makedirs(os.path.join(folder, kind), exist_ok=True)
         for name, data in files:
             with open(os.path.join(folder, kind, name), "wb") as file:

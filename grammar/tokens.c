@@ -291,7 +291,8 @@ void grammar_read_token(GrammarState *state, Token *token)
         state->ended = true;
     } else if (!state->ended && !state->builder.failed) {
         state->file_name = state->last_read == TOKEN_HASH_INCLUDE;
-        if (grammar_scan(state, token) == TOKEN_DIRECTIVE_WORD) {
+        // What is scanned behind the last fault that is reported is not there any more.
+        if (grammar_scan(state, token) == TOKEN_DIRECTIVE_WORD && !state->ended) {
             supply_hash(state, token, state->last_read);
         }
         token->known = NULL;

@@ -110,6 +110,10 @@ RT_API rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t valu
  * besides the picture, 512 MiB with it, 64 KiB of messages), pictures of the scene in PNG only, and no include files but
  * those of the scene's folders. rt_set_limit may follow. How long a run takes is the client's: rt_cancel. */
 RT_API void rt_set_untrusted(rt_session *session);
+/* Whether pictures of a scene in formats other than PNG, which large libraries decode, are read in a process of its own that
+ * may do nothing but that (0, the default): a copy of the client's, made by fork while a scene is loaded. One that crashes over
+ * a file is a fault of the scene. Costs a millisecond where such pictures are read. */
+RT_API void rt_set_readers(rt_session *session, int on);
 /* NAME=VALUE, as POV-Ray's Declare=: the value is a number. Of two declarations of a name the first holds. */
 RT_API rt_status rt_declare(rt_session *session, const char *name_value);
 /* Which warnings are reported, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with

@@ -222,6 +222,7 @@ static bool read_frame(rt_session *session, Scene *scene, Said *said)
     bool fine = frame.source && session_run_deep(session, read_slice, &frame) == RT_OK &&
                 session_load_pictures(session, scene) && session->diags.count == 0 &&
                 session->diags.error_count + session->diags.warning_count == 0;
+    picture_reader_end(&session->reader);
     if (frame.source) {
         source_close(frame.source);
         source_drop(frame.source);

@@ -211,8 +211,8 @@ static void report_status(rt_session *session, const Picture *picture, const Pic
 {
     DiagSink *diags = &session->diags;
     const char *path = source->path, *detail = error->detail, *colon = detail[0] ? ": " : "";
-    size_t length = strlen(path);
-    if (strncmp(detail, path, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
+    size_t length = strlen(source->real);
+    if (strncmp(detail, source->real, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
         detail += length + 2;
     }
     switch (error->no_memory ? IMAGE_NO_MEMORY : status) {
@@ -238,15 +238,20 @@ static bool picture_load(rt_session *session, Scene *scene, size_t index)
     const PictureSource *source = &scene->picture_sources.items[index];
     Picture *picture = &scene->pictures.items[index];
     uint64_t used = scene_bytes(scene), most = session_memory_granted(session);
-    PictureLimit limit = {.pixels = UINT64_MAX, .bytes = most > used ? most - used : 0};
+    PictureLimit limit = {UINT64_MAX, most > used ? most - used : 0, &session->cancel};
     PictureFile file;
     ImageError error;
     if (session->is_untrusted && source->format != PICTURE_PNG) {
         diag_report(&session->diags, DIAG_E0513, picture->span, "`--untrusted` reads pictures in PNG only");
         return false;
     }
-    ImageStatus status =
-        picture_file_read(source->path, picture_format_word((PictureFormat)source->format), &limit, &file, &error);
+    const char *format = picture_format_word((PictureFormat)source->format);
+    ImageStatus status = session->has_readers && source->format != PICTURE_PNG
+                             ? picture_reader_read(&session->reader, source->real, format, &limit, &file, &error)
+                             : picture_file_read_real(source->real, format, &limit, &file, &error);
+    if (status != IMAGE_OK && atomic_load(&session->cancel)) {
+        return false;
+    }
     if (status != IMAGE_OK) {
         report_status(session, picture, source, status, &file, &error);
         return false;

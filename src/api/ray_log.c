@@ -231,7 +231,7 @@ static double gap_of(const LoggedSphere *sphere)
 // The spheres that the line meets, of the others that which it passes nearest, and how many more there are.
 static void tell_spheres(const Printer *p, const LoggedRay *ray)
 {
-    const LoggedSphere *spheres = p->ray_log->spheres.items + ray->first_sphere;
+    const LoggedSphere *spheres = ray->sphere_count > 0 ? p->ray_log->spheres.items + ray->first_sphere : NULL;
     size_t nearest = ray->sphere_count, missed = ray->missed;
 
     for (size_t i = 0; i < ray->sphere_count; i++) {

@@ -65,6 +65,7 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
     text_init(&session->said);
     text_init(&session->left_out);
     text_init(&session->note);
+    picture_reader_init(&session->reader, &session->cancel);
     session->sources = source_map_new();
     session->names = intern_new(session->limits.memory_most);
     diag_init(&session->diags, session->sources);
@@ -287,6 +288,7 @@ static rt_status load(rt_session *session, void *argument)
     scene->whole = SPAN_WHOLE(source_base(source));
     bool fine = session_evaluate(session, source, scene, session->is_built ? scene->settings.version : 0.0) &&
                 (session->is_built || check_whole(session, true)) && session_load_pictures(session, scene);
+    picture_reader_end(&session->reader);
     diag_finish(&session->diags);
     session->frames.source_count = source_map_count(session->sources);
     session->loaded = fine;
@@ -465,7 +467,8 @@ static rt_status render_scene(rt_session *session, void *argument)
     bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
                     session->precision == RT_PRECISION_DOUBLE;
     GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL,
-                                .rays = session_camera_rays(session), .kept = is_spent ? NULL : &session->kept};
+                                .rays = session_camera_rays(session), .kept = is_spent ? NULL : &session->kept,
+                                .cancel = &session->cancel};
     OverlayOptions overlay = session->overlay;
     overlay_find_reach(&overlay, &session->scene);
     Prepared *prepared = prepared_new(&session->scene, &geometry);
@@ -474,7 +477,9 @@ static rt_status render_scene(rt_session *session, void *argument)
                                 session_film_planes(session))) {
         film_fini(film);
         prepared_free(prepared);
-        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
+        if (prepared || !atomic_load(&session->cancel)) {
+            diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
+        }
         return session_status(session, false);
     }
     prepared_seed(prepared, session->sampling.seed);

@@ -17,6 +17,7 @@
 #include "eval/eval.h"
 #include "forward/forward.h"
 #include "image/image.h"
+#include "image/picture_reader.h"
 #include "render/inspect/overlay.h"
 #include "render/render.h"
 #include "rtlang/rtlang.h"
@@ -80,6 +81,8 @@ struct rt_session {
     rt_callbacks callbacks;
     Limits limits;
     bool is_untrusted; // pictures of a scene are PNG
+    bool has_readers;  // pictures of other formats are read in a process of their own
+    PictureReader reader;
     SourceMap *sources;
     InternTable *names;
     DiagSink diags;

@@ -330,6 +330,11 @@ rt_status rt_set_world(rt_session *session, double scale, const double shift[3])
     return RT_OK;
 }
 
+void rt_set_readers(rt_session *session, int on)
+{
+    session->has_readers = on != 0;
+}
+
 void rt_set_lenient(rt_session *session, int on)
 {
     session->is_lenient = on != 0;

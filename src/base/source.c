@@ -16,6 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/real_path.h"
 #include "base/source_map.h"
 
 SourceMap *source_map_new(void)
@@ -216,42 +217,13 @@ SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_b
     return source_opened(map, path, file, limit_bytes, source, error_number);
 }
 
-// Opens a path in which nothing is a link, part by part. A pipe is opened without waiting for its other end.
-static int open_real(const char *real, int how)
-{
-    char part[NAME_MAX + 1];
-    int folder = open("/", O_PATH | O_DIRECTORY | O_CLOEXEC);
-    for (real++; folder >= 0 && *real != '\0'; real++) {
-        size_t length = strcspn(real, "/");
-        bool is_last = real[length] == '\0';
-        if (length >= sizeof part) {
-            close(folder);
-            errno = ENAMETOOLONG;
-            return NO_FILE;
-        }
-        memcpy(part, real, length);
-        part[length] = '\0';
-        int flags = is_last ? how | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
-        int next = openat(folder, part, flags | O_NOFOLLOW | O_CLOEXEC, 0666);
-        int error_number = errno;
-        close(folder);
-        errno = error_number;
-        folder = next;
-        if (is_last) {
-            break;
-        }
-        real += length;
-    }
-    return folder;
-}
-
 SourceResult source_open_real(SourceMap *map, const char *real, const char *name, uint64_t limit_bytes, Source **source,
                               int *error_number)
 {
     struct stat status;
     *source = NULL;
     *error_number = 0;
-    int file = is_cancelled(map) ? NO_FILE : open_real(real, O_RDONLY);
+    int file = is_cancelled(map) ? NO_FILE : real_path_open(real, O_RDONLY);
     bool is_known = file >= 0 && fstat(file, &status) == 0;
     if (is_known && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
         close(file);
@@ -267,7 +239,7 @@ SourceResult source_open_real(SourceMap *map, const char *real, const char *name
 int source_create_real(const char *real, bool appends)
 {
     struct stat status;
-    int file = open_real(real, O_WRONLY | O_CREAT | (appends ? O_APPEND : 0));
+    int file = real_path_open(real, O_WRONLY | O_CREAT | (appends ? O_APPEND : 0));
     if (file < 0) {
         return NO_FILE;
     }
@@ -410,7 +382,7 @@ bool source_digest(const Source *source, unsigned char out[DIGEST_BYTES])
     digest_init(&digest);
     for (uint64_t at = 0; at < source->size; at += BLOCK) {
         size_t part = source->size - at < BLOCK ? (size_t)(source->size - at) : BLOCK;
-        if (!source_read_at(source, at, block, part)) {
+        if (is_cancelled(source->map) || !source_read_at(source, at, block, part)) {
             return false;
         }
         digest_add(&digest, block, part);

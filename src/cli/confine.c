@@ -22,7 +22,7 @@
 #include <unistd.h>
 
 #include "base/attributes.h"
-#include "cli/confine_filter.h"
+#include "base/confine_filter.h"
 
 // Of <linux/landlock.h>, whose newer parts older systems lack. The numbers are the kernel's and never change.
 enum { LANDLOCK_VERSION = 1, RULE_PATH_BENEATH = 1 };
@@ -232,5 +232,5 @@ void confine(const Confinement *confinement)
         return;
     }
     confine_files(confinement);
-    confine_filter(confinement->is_strict, confinement->serves);
+    confine_filter((confinement->is_strict ? CONFINE_IS_STRICT : 0) | (confinement->serves ? CONFINE_SERVES : 0));
 }

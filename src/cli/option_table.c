@@ -351,7 +351,7 @@ static bool apply_untrusted(Options *options, const char *argument, OptionReadin
 static bool apply_no_confinement(Options *options, const char *argument, OptionReading *reading)
 {
     (void)argument, (void)reading;
-    options->is_unconfined = true;
+    options->is_unconfined = options->has_no_readers = true;
     return true;
 }
 

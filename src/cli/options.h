@@ -87,7 +87,7 @@ struct Options {
     bool is_lenient;
     uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
     double max_time; // seconds of the whole run; 0: as many as it takes
-    bool is_untrusted, is_unconfined;
+    bool is_untrusted, is_unconfined, has_no_readers;
     bool has_mpi;        // ranks share the picture, or deal frames
     int rank, ranks;     // once they are known; 0 of 0: there are none
     int part, parts;     // of the picture; 0 of 0: all of it

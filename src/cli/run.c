@@ -78,6 +78,8 @@ rt_status run_configure(rt_session *session, const Options *options)
                                                                           options->sky_light});
     status = status ? status : rt_set_outline(session, options->outline, (const double[]){0.0, 0.0, 0.0});
     status = status ? status : rt_set_depth_cue(session, &(rt_depth_cue){.strength = options->depth_cue});
+    // A copy of a program of several threads is none to work with.
+    rt_set_readers(session, !options->has_no_readers && options->action != ACTION_WATCH);
     rt_set_literals(session, !options->no_literals);
     rt_set_lenient(session, options->is_lenient);
     status = status ? status : rt_set_load_threads(session, options->threads);

@@ -187,17 +187,30 @@ ImageDepth depth_of(OIIO::TypeDesc type)
     }
 }
 
-ImageStatus picture_load(const char *path, const char *format, const PictureLimit *limit, Allocate allocate,
-                         PictureFile *file, ImageError *error)
+// A format that is named is not guessed by the path's ending or by trying all. Null: the error says why.
+std::unique_ptr<OIIO::ImageInput> input_open(const char *path, const char *format, ImageError *error)
 {
     // A relative path that looks like an address of the network is still a path.
     std::string name = path[0] == '/' ? std::string(path) : std::string("./") + path;
-    OIIO::ImageSpec config;
+    OIIO::ImageSpec config, found;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(name, &config);
+    auto input = format != nullptr ? OIIO::ImageInput::create(format) : OIIO::ImageInput::open(name, &config);
 
     if (!input) {
         set_detail(error, OIIO::geterror());
+    } else if (format != nullptr && !input->open(name, found, config)) {
+        set_detail(error, input->geterror());
+        input.reset();
+    }
+    return input;
+}
+
+ImageStatus picture_load(const char *path, const char *format, const PictureLimit *limit, Allocate allocate,
+                         PictureFile *file, ImageError *error)
+{
+    auto input = input_open(path, format, error);
+
+    if (!input) {
         return IMAGE_NOT_A_PICTURE;
     }
     const OIIO::ImageSpec &spec = input->spec();

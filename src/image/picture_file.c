@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/real_path.h"
 #include "image/encode.h"
 #include "image/image_error.h"
 #include "image/module.h"
@@ -35,11 +36,11 @@ void picture_file_fini(PictureFile *file)
     file->samples = NULL;
 }
 
-// Only regular files are read: a pipe would block, and the readers seek. NULL: the error says why.
-static FILE *open_readable(const char *path, ImageError *error)
+// The stream of a descriptor, which it takes; NULL: the error says why. Only regular files are read: a pipe would block,
+// and the readers seek.
+static FILE *open_readable(const char *path, int fd, ImageError *error)
 {
     struct stat status;
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     FILE *stream = NULL;
 
     if (fd < 0 || fstat(fd, &status) != 0) {
@@ -125,42 +126,102 @@ static size_t place_found(FILE *stream)
     return place;
 }
 
-static ImageStatus read_by_module(const char *path, const char *name, const PictureLimit *limit, PictureFile *file,
-                                  ImageError *error)
+// Puts the file's own name where a library's message has the one that it was given.
+static void restore_name(ImageError *error, const char *given, const char *path)
+{
+    const char *at = strstr(error->detail, given);
+    const char *slash = strrchr(path, '/');
+    ImageError named = *error;
+
+    if (at) {
+        image_error_set(&named, "%.*s%s%s", (int)(at - error->detail), error->detail, slash ? slash + 1 : path,
+                        at + strlen(given));
+        *error = named;
+    }
+}
+
+// The file that was judged is the one that is read: by its descriptor, unless its name is to tell the format.
+static ImageStatus read_by_module(const char *path, int fd, const char *name, const PictureLimit *limit,
+                                  PictureFile *file, ImageError *error)
 {
     const OiioModule *module;
     ImageStatus status = module_load_oiio(&module, error);
+    char opened[32];
 
-    return status != IMAGE_OK ? status : module->read(path, name, limit, picture_file_allocate, file, error);
+    if (status != IMAGE_OK) {
+        return status;
+    }
+    snprintf(opened, sizeof opened, "/proc/self/fd/%d", fd);
+    status = module->read(name ? opened : path, name, limit, picture_file_allocate, file, error);
+    restore_name(error, opened, path);
+    return status;
+}
+
+// The place of what reads a stream of the format asked for, NULL for any, in the table, whose length stands for any format;
+// IMAGE_NOT_A_PICTURE when the stream is of another one.
+static ImageStatus place_asked(FILE *stream, const char *format, size_t *asked, ImageError *error)
+{
+    size_t found = place_found(stream);
+
+    *asked = format ? format_place(format) : found;
+    if (*asked != RT_COUNT_OF(formats) && *asked != found &&
+        (formats[*asked].beginnings[0] || found != RT_COUNT_OF(formats))) {
+        image_error_set(error, "it does not begin as files of type %s do", format);
+        return IMAGE_NOT_A_PICTURE;
+    }
+    return IMAGE_OK;
+}
+
+static ImageStatus read_opened(const char *path, int fd, const char *format, const PictureLimit *limit,
+                               PictureFile *file, ImageError *error)
+{
+    FILE *stream = open_readable(path, fd, error);
+    size_t asked;
+
+    if (!stream) {
+        return IMAGE_IO;
+    }
+    ImageStatus status = place_asked(stream, format, &asked, error);
+    bool is_any = asked == RT_COUNT_OF(formats);
+    if (status == IMAGE_OK && !is_any && formats[asked].read) {
+        status = formats[asked].read(stream, limit, file, error);
+    } else if (status == IMAGE_OK) {
+        const char *name = is_any ? NULL : formats[asked].module_name;
+        status = read_by_module(path, fileno(stream), name, limit, file, error);
+    }
+    fclose(stream);
+    if (status != IMAGE_OK) {
+        picture_file_fini(file);
+    }
+    return status;
+}
+
+ImageStatus picture_file_begins(const char *real, const char *format, ImageError *error)
+{
+    image_error_clear(error);
+    FILE *stream = open_readable(real, real_path_open(real, O_RDONLY), error);
+    size_t asked;
+
+    if (!stream) {
+        return IMAGE_IO;
+    }
+    ImageStatus status = place_asked(stream, format, &asked, error);
+    fclose(stream);
+    return status;
 }
 
 ImageStatus picture_file_read(const char *path, const char *format, const PictureLimit *limit, PictureFile *file,
                               ImageError *error)
 {
-    FILE *stream;
-    ImageStatus status = IMAGE_NOT_A_PICTURE;
-
     *file = (PictureFile){0};
     image_error_clear(error);
-    stream = open_readable(path, error);
-    if (!stream) {
-        return IMAGE_IO;
-    }
-    size_t found = place_found(stream), asked = !format ? found : format_place(format);
-    bool is_any = asked == RT_COUNT_OF(formats);
-    StreamRead read = is_any ? NULL : formats[asked].read;
-    bool fits = is_any || asked == found || (!formats[asked].beginnings[0] && found == RT_COUNT_OF(formats));
-    if (fits && read) {
-        status = read(stream, limit, file, error);
-    }
-    fclose(stream);
-    if (!fits) {
-        image_error_set(error, "it does not begin as files of type %s do", format);
-    } else if (!read) {
-        status = read_by_module(path, is_any ? NULL : formats[asked].module_name, limit, file, error);
-    }
-    if (status != IMAGE_OK) {
-        picture_file_fini(file);
-    }
-    return status;
+    return read_opened(path, open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK), format, limit, file, error);
+}
+
+ImageStatus picture_file_read_real(const char *real, const char *format, const PictureLimit *limit, PictureFile *file,
+                                   ImageError *error)
+{
+    *file = (PictureFile){0};
+    image_error_clear(error);
+    return read_opened(real, real_path_open(real, O_RDONLY), format, limit, file, error);
 }

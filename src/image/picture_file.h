@@ -13,6 +13,13 @@
 #include "base/attributes.h"
 #include "image/image.h"
 
+#ifdef __cplusplus
+typedef struct PictureFlag PictureFlag; // C++ has another; it does not look at it
+#else
+#include <stdatomic.h>
+typedef atomic_bool PictureFlag;
+#endif
+
 enum { PICTURE_PALETTE_MAX = 256 };
 
 typedef struct PictureFile {
@@ -32,6 +39,7 @@ typedef struct PictureFile {
 
 typedef struct PictureLimit {
     uint64_t pixels, bytes; // of the picture; of its samples
+    const PictureFlag *cancel; // reading gives up, as if it had failed, when this is set; NULL: never
 } PictureLimit;
 
 // Room for the samples of a picture whose size is set, judged before memory is asked for.
@@ -43,5 +51,12 @@ void picture_file_fini(PictureFile *file); // releases the samples
 // what the file claims, or 0.
 ImageStatus picture_file_read(const char *path, const char *format, const PictureLimit *limit, PictureFile *file,
                               ImageError *error) RT_MUST_CHECK;
+
+// The same for a path in which nothing is a link, as realpath gives it; a link that is there by now is an error.
+ImageStatus picture_file_read_real(const char *real, const char *format, const PictureLimit *limit, PictureFile *file,
+                                   ImageError *error) RT_MUST_CHECK;
+
+// What of that is told by the file's first bytes: IMAGE_OK when it can be opened and may be of the format.
+ImageStatus picture_file_begins(const char *real, const char *format, ImageError *error) RT_MUST_CHECK;
 
 #endif

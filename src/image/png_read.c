@@ -116,6 +116,11 @@ static bool memory_take(PngReader *reader)
     return reader->status == IMAGE_OK;
 }
 
+static bool is_cancelled(const PictureLimit *limit)
+{
+    return limit->cancel && atomic_load_explicit(limit->cancel, memory_order_relaxed);
+}
+
 // No local variable is live across the jump.
 static void read_guarded(PngReader *reader)
 {
@@ -136,9 +141,13 @@ static void read_guarded(PngReader *reader)
     if (!memory_take(reader)) {
         return;
     }
+    reader->status = IMAGE_IO; // until it is whole
     for (int pass = png_get_interlace_type(reader->png, reader->info) == PNG_INTERLACE_NONE ? PASSES_MAX - 1 : 0;
          pass < PASSES_MAX; pass++) {
         for (int y = 0; y < reader->file->height; y++) {
+            if (is_cancelled(reader->limit)) {
+                return;
+            }
             png_bytep rows = reader->file->samples;
             png_read_row(reader->png, rows + (size_t)y * png_get_rowbytes(reader->png, reader->info), NULL);
         }

@@ -37,6 +37,7 @@ typedef enum PictureAlpha { PICTURE_ALPHA_UNSAID, PICTURE_ALPHA_STRAIGHT, PICTUR
 
 typedef struct PictureSource {
     const char *path;  // interned: equal texts are one address. Belongs to the names of the program
+    const char *real;  // the path with all links resolved, which was judged; interned
     uint32_t format;   // PictureFormat
     uint32_t encoding; // PictureGamma
     double gamma;      // PICTURE_GAMMA_POWER, else 0

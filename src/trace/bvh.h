@@ -11,6 +11,7 @@
 #define TRACE_BVH_H
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -127,8 +128,9 @@ typedef enum BvhLeafBits { BVH_LEAF_ONE = 0, BVH_LEAF_EIGHT = 3 } BvhLeafBits;
 
 // Builds the tree of a placed *bvh over 1 <= count < 2^28 refs and puts them into its order, in which leaves are runs
 // and follow each other as their nodes do. The result does not depend on the number of threads. False when out of
-// memory; *bvh is then empty.
-bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, BvhLeafBits leaf_bits, int threads) RT_MUST_CHECK;
+// memory, or given up since *cancel (NULL: there is none) is set; *bvh is then empty.
+bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, BvhLeafBits leaf_bits, int threads,
+               const atomic_bool *cancel) RT_MUST_CHECK;
 void bvh_fini(Bvh *bvh);
 
 #endif

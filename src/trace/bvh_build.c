@@ -37,6 +37,7 @@ typedef struct Supply {
 typedef struct Builder {
     BvhRef *refs;
     BvhNode *nodes;
+    const atomic_bool *cancel; // what is left is then made as nodes without children; NULL: never
     Supply supplies[BUILDERS_MOST];
     atomic_uint next_node; // the first that is in no supply
     pthread_mutex_t lock; // of all below
@@ -82,13 +83,18 @@ static BvhChild builder_node(Builder *builder, int thread)
     return supply->next++;
 }
 
+static bool is_cancelled(const Builder *builder)
+{
+    return builder->cancel && atomic_load_explicit(builder->cancel, memory_order_relaxed);
+}
+
 // Splits the child of the largest box, again and again, until there are eight or all are leaves.
-static int node_split(BvhRef *refs, const Range *range, int threads, BvhRef spare[RANGE_SPARE],
+static int node_split(Builder *builder, const Range *range, int threads, BvhRef spare[RANGE_SPARE],
                       Range children[BVH_WIDTH])
 {
     int count = 1;
     children[0] = *range;
-    while (count < BVH_WIDTH) {
+    while (count < BVH_WIDTH && !is_cancelled(builder)) {
         int largest = -1;
         float largest_area = -1.0f;
         for (int i = 0; i < count; i++) {
@@ -102,7 +108,7 @@ static int node_split(BvhRef *refs, const Range *range, int threads, BvhRef spar
             break;
         }
         Range parent = children[largest];
-        range_split(refs, &parent, threads, spare, &children[largest], &children[count++]);
+        range_split(builder->refs, &parent, threads, spare, &children[largest], &children[count++]);
     }
     return count;
 }
@@ -129,7 +135,10 @@ static void builder_make(Builder *builder, int thread, int splitters, const Task
     *task->place = number;
     bvh_node_clear(node);
     Range children[BVH_WIDTH];
-    int count = node_split(builder->refs, &task->range, splitters, builder->spares[thread], children);
+    int count = node_split(builder, &task->range, splitters, builder->spares[thread], children);
+    if (is_cancelled(builder)) {
+        return;
+    }
     node->present = (1u << count) - 1;
     for (int i = 0; i < count; i++) {
         for (int axis = 0; axis < 3; axis++) {
@@ -219,7 +228,7 @@ static void builder_run(Builder *builder, uint32_t count, unsigned leaf_bits, in
     parallel_run(threads, builder_work, builder);
 }
 
-bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, BvhLeafBits leaf_bits, int threads)
+bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, BvhLeafBits leaf_bits, int threads, const atomic_bool *cancel)
 {
     Builder *builder = calloc(1, sizeof(*builder));
     int builders = count <= 4 * TASK_REFS_LEAST ? 1 : threads < BUILDERS_MOST ? threads : BUILDERS_MOST;
@@ -229,12 +238,13 @@ bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, BvhLeafBits leaf_bits, in
     }
     BvhChild root;
     builder->refs = refs;
+    builder->cancel = cancel;
     builder->nodes = bvh->nodes = bvh->pages.memory;
     bvh->node_count = 0;
     pthread_mutex_init(&builder->lock, NULL);
     pthread_cond_init(&builder->changed, NULL);
     builder_run(builder, count, leaf_bits, builders, &root);
-    bool done = order_nodes(bvh, atomic_load(&builder->next_node), root);
+    bool done = !is_cancelled(builder) && order_nodes(bvh, atomic_load(&builder->next_node), root);
     pthread_cond_destroy(&builder->changed);
     pthread_mutex_destroy(&builder->lock);
     free(builder);

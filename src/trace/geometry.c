@@ -124,8 +124,9 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
     }
     geometry->kernels = sphere_kernels_choose(options->isa);
     if (!geometry->kernels ||
-        !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent) ||
-        !planes_init(geometry, scene, exponent) || !shapes_init(&geometry->shapes, scene, exponent, options->threads) ||
+        !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent,
+                           options->cancel) ||
+        !planes_init(geometry, scene, exponent) || !shapes_init(&geometry->shapes, scene, exponent, options->threads, options->cancel) ||
         !coincident_init(geometry)) {
         geometry_free(geometry);
         return NULL;
@@ -164,6 +165,7 @@ typedef struct Follow {
     const Scene *scene;
     int exponent, threads;
     double rays;
+    const atomic_bool *cancel;
     bool is_elsewhere;         // all places and lengths are others
     bool is_built, is_changed; // a tree is a new one; any shape is
 } Follow;
@@ -188,7 +190,7 @@ static bool kept_take_spheres(GeometryKept *kept, Follow *follow)
     kept->refit.in_root = 0.0;
     kept->refit.fits = 0;
     sphere_table_fini(spheres);
-    return sphere_table_init(spheres, follow->scene, follow->exponent, follow->threads, NULL);
+    return sphere_table_init(spheres, follow->scene, follow->exponent, follow->threads, NULL, follow->cancel);
 }
 
 // The rest as it is now.
@@ -206,7 +208,7 @@ static bool kept_take_others(GeometryKept *kept, Follow *follow)
     if ((follow->is_elsewhere && kept->parts > 0) || kept->parts != scene->parts.count) {
         follow->is_built = follow->is_changed = true;
         shapes_fini(&geometry->shapes);
-        return shapes_init(&geometry->shapes, scene, follow->exponent, follow->threads);
+        return shapes_init(&geometry->shapes, scene, follow->exponent, follow->threads, follow->cancel);
     }
     return true;
 }
@@ -217,6 +219,7 @@ static bool kept_follow(GeometryKept *kept, const Scene *scene, int exponent, co
                      .exponent = exponent,
                      .threads = options->threads,
                      .rays = options->rays,
+                     .cancel = options->cancel,
                      .is_elsewhere = kept->is_elsewhere || kept->exponent != exponent};
     bool is_done = kept_take_spheres(kept, &follow) && kept_take_others(kept, &follow) &&
                    (!follow.is_changed || coincident_init(kept->geometry));

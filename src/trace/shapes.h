@@ -108,7 +108,8 @@ static inline const Solid *table_solid(const ShapeTable *table, ShapeId shape)
 
 // Takes over the scene's parts and composites, lengths multiplied by 2^-exponent. False when out of memory; the table
 // may then be given to shapes_fini.
-bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads) RT_MUST_CHECK;
+bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads,
+                 const atomic_bool *cancel) RT_MUST_CHECK;
 void shapes_fini(ShapeTable *table);
 size_t shapes_bytes(const ShapeTable *table);
 

@@ -242,6 +242,7 @@ typedef struct Work {
     Bounds *solids, *nodes; // the roots' boxes are those of their csg_trees
     ShapeItem *bounded;
     Pages solid_pages, bounded_pages, ref_pages;
+    const atomic_bool *cancel; // of building the tree
 } Work;
 
 static const Bounds *item_bounds(const ShapeTable *table, const Work *work, ShapeItem item)
@@ -350,7 +351,7 @@ static bool tree_init(ShapeTable *table, Work *work, int threads)
         const Bounds *own = item_bounds(table, work, work->bounded[i]);
         refs[i] = bvh_ref(&table->tree, own->low, own->high, i);
     }
-    bool done = bvh_build(&table->tree, refs, table->bounded_count, BVH_LEAF_ONE, threads);
+    bool done = bvh_build(&table->tree, refs, table->bounded_count, BVH_LEAF_ONE, threads, work->cancel);
     for (uint32_t i = 0; done && i < table->bounded_count; i++) {
         table->items[table->unbounded_count + i] = work->bounded[bvh_ref_index(&refs[i])];
         memcpy(table->boxes[i].low, refs[i].low, sizeof table->boxes[i].low);
@@ -402,7 +403,7 @@ static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
     return true;
 }
 
-bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads)
+bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads, const atomic_bool *cancel)
 {
     *table = (ShapeTable){
         .solid_count = (uint32_t)scene->parts.count,
@@ -412,7 +413,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
     if (table->solid_count == 0) {
         return true;
     }
-    Work work = {0};
+    Work work = {.cancel = cancel};
     bool done = storage_take(table, scene, &work);
     if (done) {
         double down = ldexp(1.0, -exponent), up = ldexp(1.0, exponent);

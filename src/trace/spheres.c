@@ -67,6 +67,7 @@ typedef struct Maker {
     uint32_t tree_count;    // of those
     uint32_t *first_blocks; // of each chunk of nodes
     SphereBlock loose;
+    const atomic_bool *cancel; // of building the tree
 } Maker;
 
 static inline SphereData maker_ball(const Maker *maker, size_t number)
@@ -348,7 +349,7 @@ static bool maker_plant(Maker *maker, uint32_t count, int threads)
     maker->refs = maker->ref_pages.memory;
     maker_place(maker);
     maker_share(maker, threads, refs_work);
-    return bvh_build(&maker->table->bvh, maker->refs, count, BVH_LEAF_EIGHT, threads) && maker_count_blocks(maker);
+    return bvh_build(&maker->table->bvh, maker->refs, count, BVH_LEAF_EIGHT, threads, maker->cancel) && maker_count_blocks(maker);
 }
 
 static bool maker_number_slots(Maker *maker, int threads)
@@ -411,13 +412,15 @@ void sphere_table_measure(SphereTable *table)
     }
 }
 
-bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent)
+bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent,
+                       const atomic_bool *cancel)
 {
     *table = (SphereTable){0};
     if (scene->spheres.count == 0) {
         return true;
     }
-    Maker maker = {.table = table, .scene = scene, .spent = spent, .records = sphere_records(scene, exponent)};
+    Maker maker = {.table = table, .scene = scene, .spent = spent, .records = sphere_records(scene, exponent),
+                   .cancel = cancel};
     maker.chunks = malloc(chunk_count(&maker) * sizeof(*maker.chunks));
     bool done = maker.chunks && maker_make(&maker, threads);
     free(maker.chunks);

@@ -216,7 +216,8 @@ const SphereKernels *sphere_kernels_at(size_t i);
 
 // All usable spheres of the scene, lengths times 2^-exponent; `spent` as in GeometryOptions. False when out of memory;
 // fini is to be called anyway.
-bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent) RT_MUST_CHECK;
+bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent,
+                       const atomic_bool *cancel) RT_MUST_CHECK;
 void sphere_table_fini(SphereTable *table);
 
 // One of the vectors whose components stand apart, and back.

@@ -108,6 +108,7 @@ typedef struct GeometryOptions {
     Scene *spent;    // the scene itself, when nobody asks for its spheres later: they are freed as soon as the geometry
                      // has what it needs, and their list is empty then; NULL: they stay
     double rays;     // that it is made for, about, if it is kept
+    const atomic_bool *cancel; // building is given up, as if memory had run out, when it is set; NULL: never
     GeometryKept *kept; // for prepared_new: what is taken from there, or put there and lives on; NULL: nothing
 } GeometryOptions;
 

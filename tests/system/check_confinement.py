@@ -57,13 +57,65 @@ def test_intruder(has_landlock, has_seccomp):
     for options in [[], ["--untrusted"]]:
         name = "planted calls" + " ".join(["", *options])
         said = rtlang("-q", *options, "-o", "out/x.png", "good.scn", **planted).stderr.decode().splitlines()
-        wanted = OFTEN * has_landlock + ["symlink: EPERM", *ALWAYS, "fork: EPERM", "execute: EPERM"] * has_seccomp
+        wanted = OFTEN * has_landlock + ["symlink: EPERM", *ALWAYS, "fork: EPERM", "copy: EPERM",
+                                                                          "execute: EPERM"] * has_seccomp
         tap.ok(all(line in said for line in wanted), "%s are stopped" % name, "%s\n%s" % (wanted, said))
         tap.equal(sorted(os.listdir("../elsewhere")), ["secret"], "%s leave nothing elsewhere" % name)
         if has_seccomp:
             tap.equal([line for line in said if line.startswith("code")], ["code: EPERM" if options else "code: done"],
                       "%s: memory that can be run" % name)
     test_serving_intruder(planted, has_landlock, has_seccomp)
+    test_intruder_in_reader(planted, has_landlock, has_seccomp)
+
+
+def test_intruder_in_reader(planted, has_landlock, has_seccomp):
+    """What a file makes of libjpeg stays in the process that reads it, may do less still, and is a message."""
+    write("jpeg.scn", GOOD.replace(b"png \"map.png\"", b"jpeg \"whole.jpg\""))
+    if rtlang("-q", "-W16", "-H12", "-o", "whole.jpg", "map.scn").returncode != 0:
+        tap.skip("a reader that is taken over", "JPEG cannot be written")
+        return
+    write("old.png", b"old")
+    done = rtlang("-q", "-o", "old.png", "jpeg.scn", INTRUDER_READER="1", **planted)
+    said = done.stderr.decode().splitlines()
+    wanted = ["read: EACCES"] * has_landlock + ["write: EPERM", "make: EPERM", "symlink: EPERM", *ALWAYS, "code: EPERM",
+                                                "fork: EPERM", "copy: EPERM", "execute: EPERM"] * has_seccomp
+    tap.ok(all(line in said for line in wanted), "planted calls in the process that reads pictures are stopped",
+           "%s\n%s" % (wanted, said))
+    located = [line for line in said if line.startswith("jpeg.scn:4:")]
+    tap.equal((done.returncode, located, read("old.png"), sorted(os.listdir("../elsewhere"))),
+              (3, ["jpeg.scn:4:42: error[E0511]: `whole.jpg` cannot be read as a jpeg file: the process that read it was "
+                   "ended by signal 4"], b"old", ["secret"]), "and its fall is a message about the picture")
+
+
+def test_formats():
+    """Pictures read by libraries are the same pixels from a process of their own."""
+    for word, ending in ("jpeg", "jpg"), ("tiff", "tif"), ("exr", "exr"), ("hdr", "hdr"), ("tga", "tga"), ("ppm", "ppm"):
+        picture = "same." + ending
+        if rtlang("-q", "-W16", "-H12", "-o", picture, "map.scn").returncode != 0:
+            tap.skip("pictures in " + word, "it cannot be written")
+            continue
+        write("same.scn", GOOD.replace(b"png \"map.png\"", ("%s \"%s\"" % (word, picture)).encode()))
+        write("cut.scn", read("same.scn").replace(b"same.", b"cut."))
+        write("cut." + ending, read(picture)[:len(read(picture)) // 2])
+        for scene in "same.scn", "cut.scn":
+            outcomes = []
+            for options in [], ["--no-confinement"]:
+                write("old.png", b"old")
+                done = rtlang("-q", "-W32", "-H24", *options, "-o", "old.png", scene)
+                outcomes.append((done.returncode, done.stderr, read("old.png")))
+            tap.equal(outcomes[0], outcomes[1], "%s is the same with and without: %s" % (picture, scene))
+
+
+def test_slow_reader():
+    """Of a file that takes its reader long nobody waits for the end."""
+    write("huge.scn", GOOD.replace(b"png \"map.png\"", b"ppm \"huge.ppm\""))
+    with open("huge.ppm", "wb") as file:
+        file.write(b"P3 9000 9000 255\n")
+        for _ in range(9000):
+            file.write(b"200 100 50 " * 9000)
+    done = rtlang("-q", "--max-time=0.5", "-o", "old.png", "huge.scn")
+    tap.equal((done.returncode, done.stderr), (4, LATE % b"nothing was written"), "--max-time ends the reading of a picture")
+    os.remove("huge.ppm")
 
 
 def test_serving_intruder(planted, has_landlock, has_seccomp):
@@ -79,32 +131,49 @@ def test_serving_intruder(planted, has_landlock, has_seccomp):
     tap.equal(sorted(os.listdir("../elsewhere")), ["secret"], "and leave nothing elsewhere")
 
 
-def test_swapped():
-    """A file that is now the scene's own, now a link out of its folder: the program by itself never reads the latter."""
-    write("../elsewhere/swapped.inc", b"#error \"the secret was read\"\n")
-    write("swapped.scn", b"#for (I, 1, 40)\n#include \"swapped.inc\"\n#end\nsphere { 0, 1 }\n")
-    os.symlink("../elsewhere/swapped.inc", "leading_out")
-    write("own", b"#declare A = 1;\n")
+def swapped_runs(name, own, secret, scene, count):
+    """Runs of a scene while a file of it is now the scene's own, now a link out of its folder."""
+    write("../elsewhere/" + name, secret)
+    write("swapped.scn", scene)
+    os.symlink("../elsewhere/" + name, "leading_out")
+    write("own", own)
     stop = threading.Event()
 
     def swap():
         while not stop.is_set():
             for source in "leading_out", "own":
                 os.link(source, "next", follow_symlinks=False)
-                os.replace("next", "swapped.inc")
+                os.replace("next", name)
 
-    os.link("own", "swapped.inc")
+    os.link("own", name)
     swapper = threading.Thread(target=swap)
     swapper.start()
-    runs = [rtlang("-q", "--no-confinement", "--check", "swapped.scn") for _ in range(150)]
+    runs = [rtlang("-q", "--no-confinement", "-W4", "-H3", "-o", "-.ppm", "swapped.scn") for _ in range(count)]
     stop.set()
     swapper.join()
+    for path in "own", "leading_out", "../elsewhere/" + name:
+        os.remove(path)
+    return runs
+
+
+def test_swapped():
+    """The program by itself never reads what a link leads to that comes after it was judged."""
+    runs = swapped_runs("swapped.inc", b"#declare A = 1;\n", b"#error \"the secret was read\"\n",
+                        b"#for (I, 1, 40)\n#include \"swapped.inc\"\n#end\nsphere { 0, 1 }\n", 150)
     read_runs = [done for done in runs if b"secret" in done.stderr]
     tap.ok(not read_runs, "a link that is swapped while it is read does not lead out",
            "%d of %d runs read it" % (len(read_runs), len(runs)))
     refused = sum(b"error[E0508]" in done.stderr for done in runs)
     tap.ok(0 < refused, "which was tried: %d of %d runs met the link, %d met none" %
            (refused, len(runs), sum(done.returncode == 0 for done in runs)))
+    white, black = b"P6 1 1 255\n\xff\xff\xff", b"P6 1 1 255\n\0\0\0"
+    if b"E0507" in rtlang("--check", "ppm.scn").stderr:
+        tap.skip("a picture that is swapped", "built without OpenImageIO")
+        return
+    runs = swapped_runs("map.ppm", black, white, read("ppm.scn"), 40)
+    drawn = [done.stdout for done in runs if done.returncode == 0]
+    tap.ok(drawn and b"\xff" not in b"".join(out[-36:] for out in drawn), "nor does a picture's",
+           "%d of %d runs drew it" % (sum(b"\xff" in out[-36:] for out in drawn), len(runs)))
 
 
 def test_several():
@@ -234,6 +303,8 @@ def main():
         write("standard.scn", b'#include "colors.inc"\nsphere { 0, 1 pigment { Red } }\n')
         write("map.scn", b"camera { location -5*z look_at 0 }\nsphere { 0, 1 }\n")
         subprocess.run([RTLANG, "-q", "-W9", "-H7", "-o", "map.png", "map.scn"], stderr=subprocess.PIPE, check=True)
+        write("ppm.scn", b"camera { location -5*z look_at 0 }\nplane { z, 0 pigment { image_map { ppm \"map.ppm\" } } "
+              b"finish { ambient 1 diffuse 0 } }\n")
         line = rtlang("--version").stdout.decode().splitlines()[1]
         tap.ok(line.startswith("confinement: "), "--version says what there is: " + line)
         if "none" not in line:
@@ -243,6 +314,8 @@ def main():
         if "none" not in line:
             test_several_intruders("no Landlock" not in line, "no seccomp" not in line)
         test_runs()
+        test_formats()
+        test_slow_reader()
         test_untrusted()
         test_time()
         os.chdir("/")

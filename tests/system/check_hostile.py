@@ -68,6 +68,12 @@ SCENES = {
     "a string that doubles": '#declare S = "ab";\n' + forever("#declare S = concat(S, S);"),
     "a string that is compared": '#declare S = "ab"; #for (K, 1, 20) #declare S = concat(S, S); #end\n' +
                                  forever("#declare C = strcmp(S, S);"),
+    "strings that are compared by a sign": '#declare S = "ab"; #for (K, 1, 21) #declare S = concat(S, S); #end\n' +
+                                            forever("#declare C = (S = S);"),
+    "the length of a string": '#declare S = "ab"; #for (K, 1, 21) #declare S = concat(S, S); #end\n' +
+                              forever("#declare C = strlen(S);"),
+    "a file of a name of megabytes": '#declare S = "ab"; #for (K, 1, 21) #declare S = concat(S, S); #end\n' +
+                                     forever("#declare C = file_exists(S);"),
     "a string in capitals": '#declare S = "ab"; #for (K, 1, 20) #declare S = concat(S, S); #end\n' +
                             forever("#declare C = strupr(S);"),
     "a number of a million digits": '#debug str(1, 0, 1000000)\n' * 3,
@@ -220,6 +226,17 @@ LONG = {
                        "#for (I, 0, 29) sphere { <mod(I, 5) - 2, mod(int(I/5), 3) - 1, int(I/15)>/2, 0.5 pigment { "
                        "rgbt 0.9 } finish { reflection 0.9 } interior { ior 1.5 } } #end\n",
                        ["-q", "-W4", "-H4", "-o", "x.png"]),
+    # Nothing of it is met by the picture's own samples.
+    "a tree of rays that is looked at beside": (
+        "global_settings { max_trace_level 256 adc_bailout 0 }\n" + HEAD +
+        "#for (I, 0, 29) box { <mod(I, 5) - 2, mod(int(I/5), 3) - 1, int(I/15)>/2 - 0.3, <mod(I, 5) - 2, "
+        "mod(int(I/5), 3) - 1, int(I/15)>/2 + 0.35 rotate I pigment { rgbt 0.99 } finish { reflection 0.99 } "
+        "interior { ior 1.3 } } #end\n", ["-q", "-W2", "-H2", "-t1", "--samples=4", "-o", "x.png"]),
+    "a large picture of a scene": (HEAD + 'box { -1, 1 pigment { image_map { png "large.png" } } }\n',
+                                   ["-q", "-W9", "-H9", "-o", "x.png"]),
+    "a tree of many spheres": ("".join("sphere { <%d, %d, %d>, %g pigment { rgb <1, 0, %g> } }\n" %
+                                       (i % 97, i % 89, i, 0.3 + i*1e-7, i % 7/7) for i in range(400000)) + HEAD,
+                               ["-q", "-W9", "-H9", "-o", "x.png"]),
     "patterns": (HEAD + "plane { y, 0 pigment { average pigment_map { " + "[1 bozo turbulence 1 octaves 10]" * 200 +
                  "}}}\n", ["-q", "-W900", "-H900", "-o", "x.png"]),
     "quadruple precision": (HEAD + BALL, ["-q", "-W900", "-H900", "--samples=1000", "--precision=quad", "-o", "x.png"]),
@@ -255,6 +272,8 @@ def main():
         print("# slowness %.2f" % slow)
         for name, text in SCENES.items():
             test_ends(name, text, slow)
+        write("ball.scn", HEAD + BALL)
+        run("-q", "-W9000", "-H7000", "-o", "large.png", "ball.scn")
         for name, scene in LONG.items():
             test_interrupts(name, scene, slow)
         os.chdir("/")

@@ -96,7 +96,7 @@ static bool read_file(Block *block, PictureFormat format)
                            name.text);
     }
     source->format = format;
-    source->path = file_find(block->ev, item, name.text, FILE_IMAGE, endings[format]);
+    source->path = file_find(block->ev, item, name.text, FILE_IMAGE, endings[format], &source->real);
     source->is_modern = eval_knows_37(block->ev);
     source->space = settings->gamma_model == GAMMA_NONE && source->is_modern ? GAMMA_LINEAR : settings->gamma_model;
     source->space_gamma = settings->gamma_model == GAMMA_POWER ? settings->assumed_gamma : 0.0;

@@ -16,7 +16,7 @@
 static const double TURN = 0.001;
 
 typedef struct TextHead {
-    const char *path; // of the font
+    const char *path, *real; // of the font; without links
     Span font_span;
     Value text;
     Span span;
@@ -54,7 +54,7 @@ static bool read_internal(Block *block, TextHead *head)
         return false;
     }
     bool is_one = number >= 1.0 && number < (double)RT_COUNT_OF(names);
-    head->path = file_find(block->ev, item, names[is_one ? (size_t)number : 0], FILE_FONT, endings);
+    head->path = file_find(block->ev, item, names[is_one ? (size_t)number : 0], FILE_FONT, endings, &head->real);
     cursor_take_comma(&block->cursor);
     return head->path != NULL;
 }
@@ -76,7 +76,7 @@ static bool read_font(Block *block, TextHead *head)
     if (!read_string(block, "the name of a font", &name, &head->font_span)) {
         return false;
     }
-    head->path = file_find(block->ev, item, name.text, FILE_FONT, endings);
+    head->path = file_find(block->ev, item, name.text, FILE_FONT, endings, &head->real);
     cursor_take_comma(&block->cursor);
     return head->path != NULL;
 }
@@ -190,7 +190,7 @@ bool text_body(Block *block)
     if (!read_head(block, &head)) {
         return false;
     }
-    switch (font_open(&font, head.path, why, sizeof why)) {
+    switch (font_open(&font, head.real, why, sizeof why)) {
     case FONT_NO_MODULE:
         return block_fault(block, DIAG_E0516, block->node->span,
                            "text needs FreeType to read fonts, which this rtlang cannot use: %s", why);

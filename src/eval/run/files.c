@@ -352,6 +352,13 @@ static bool find(const Eval *ev, Search *search, const char *ending)
 // Looking for a file and opening it takes as long as so many bytes of strings: 200 steps, 15 microseconds.
 enum { WORK_OF_A_FILE = 200 * 256 };
 
+// The name is looked through for each folder; it may be as long as a string.
+static bool take_work(Eval *ev, const char *name, Span span)
+{
+    enum { WORK_OF_A_LETTER = 64 };
+    return eval_work(ev, WORK_OF_A_FILE + WORK_OF_A_LETTER * strlen(name), span);
+}
+
 // Memory ran out, so that a file may not have been found.
 static bool search_failed(const Eval *ev, const Search *search)
 {
@@ -360,7 +367,7 @@ static bool search_failed(const Eval *ev, const Search *search)
 
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there)
 {
-    if (!eval_work(ev, WORK_OF_A_FILE, span)) {
+    if (!take_work(ev, name->text, span)) {
         return false;
     }
     Search search = {.name = name->text};
@@ -496,7 +503,7 @@ static bool open_found(Eval *ev, const char *path, FileUse use, Span span, Sourc
 bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
 {
     Value name;
-    if (!eval_string(ev, name_node, &name) || !eval_work(ev, WORK_OF_A_FILE, name_node->span)) {
+    if (!eval_string(ev, name_node, &name) || !take_work(ev, name.text, name_node->span)) {
         return false;
     }
     Search search = {.name = name.text};
@@ -515,9 +522,17 @@ bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
     return is_found && !ev->stop;
 }
 
-const char *file_find(Eval *ev, const AstNode *name_node, const char *text, FileUse use, const char *const *endings)
+// A text that is kept as long as the names are; NULL when out of memory.
+static const char *keep_text(Eval *ev, const TextBuffer *text)
 {
-    if (!eval_work(ev, WORK_OF_A_FILE, name_node->span)) {
+    Symbol symbol = intern_text(ev->options.names, text_get(text), text->length);
+    return symbol != SYMBOL_NONE ? eval_text(ev, symbol) : NULL;
+}
+
+const char *file_find(Eval *ev, const AstNode *name_node, const char *text, FileUse use, const char *const *endings,
+                      const char **real)
+{
+    if (!take_work(ev, text, name_node->span)) {
         return NULL;
     }
     Search search = {.name = text};
@@ -532,8 +547,8 @@ const char *file_find(Eval *ev, const AstNode *name_node, const char *text, File
     } else if (!is_found) {
         report_missing(ev, &search, use, name_node);
     } else if (may_read(ev, text_get(&search.path), name_node->span)) {
-        Symbol symbol = intern_text(ev->options.names, text_get(&search.path), search.path.length);
-        path = symbol != SYMBOL_NONE ? eval_text(ev, symbol) : NULL;
+        *real = keep_text(ev, &ev->files->real);
+        path = *real ? keep_text(ev, &search.path) : NULL;
         if (path == NULL) {
             eval_no_memory(ev, name_node->span);
         }

@@ -307,9 +307,9 @@ bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MU
 bool file_may_write(Eval *ev, const char *name, Span span, char *real) RT_MUST_CHECK;
 
 // The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a
-// list that NULL ends is added in turn. `node` is the expression that gave the name.
-const char *file_find(Eval *ev, const AstNode *node, const char *name, FileUse use,
-                      const char *const *endings) RT_MUST_CHECK;
+// list that NULL ends is added in turn. `node` is the expression that gave the name; *real is the path without links.
+const char *file_find(Eval *ev, const AstNode *node, const char *name, FileUse use, const char *const *endings,
+                      const char **real) RT_MUST_CHECK;
 
 // #fopen, #fclose, #read and #write
 void data_file_run(Cursor *cursor, const AstNode *node);

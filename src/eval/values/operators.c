@@ -239,6 +239,9 @@ bool operator_binary(Eval *ev, const AstNode *node, Value *value)
     }
     bool compares = node->op >= AST_OP_EQ && node->op <= AST_OP_GE;
     if (compares && value->kind == VALUE_STRING && right.kind == VALUE_STRING) {
+        if (!eval_work(ev, value->length < right.length ? value->length : right.length, node->span)) {
+            return false;
+        }
         value_set_number(value, relation((AstOp)node->op, compare_strings(value, &right), 0.0));
         return true;
     }

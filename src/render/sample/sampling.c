@@ -204,9 +204,10 @@ static bool run_round(Sampling *s)
     return is_whole;
 }
 
-// Traces what changes no pixel; false when it was cancelled.
+// Traces what changes no pixel, so that any ray may be left out; false when it was cancelled.
 static bool trace_beside(Sampling *s, Traces traces)
 {
+    bool keeps = atomic_exchange(&s->prepared->abandon->keeps, false);
     TileWork work = {.client = s,
                      .prepared = s->prepared,
                      .width = s->film->width,
@@ -220,6 +221,7 @@ static bool trace_beside(Sampling *s, Traces traces)
     s->traces = traces;
     RenderResult result = tiles_run(&work, s->options, &s->audited);
     s->traces = TRACES_ROUND;
+    atomic_store(&s->prepared->abandon->keeps, keeps);
     s->result = result == RENDER_NO_MEMORY || result == RENDER_NOT_SHARED ? result : s->result;
     return result == RENDER_OK;
 }

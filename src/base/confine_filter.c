@@ -8,13 +8,15 @@
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
 #endif
-#include "cli/confine_filter.h"
+#include "base/confine_filter.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sched.h>
+#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <sys/ioctl.h>
@@ -23,6 +25,7 @@
 #include <unistd.h>
 
 #include "base/attributes.h"
+#include "base/process.h"
 
 #if defined __x86_64__ && !defined __ILP32__
 #define ARCHITECTURE AUDIT_ARCH_X86_64
@@ -67,10 +70,23 @@ static const uint16_t refused_connections[] = {
     __NR_accept, __NR_accept4, __NR_sendto, __NR_sendmsg, __NR_sendmmsg, __NR_recvfrom, __NR_recvmsg, __NR_recvmmsg,
 };
 
+// What changes files: refused to a process that only reads.
+static const uint16_t refused_writes[] = {
+    __NR_ftruncate, __NR_truncate, __NR_renameat, __NR_renameat2, __NR_unlinkat, __NR_linkat, __NR_mkdirat, __NR_fchmod,
+    __NR_fchmodat, __NR_utimensat, __NR_setxattr, __NR_fsetxattr, __NR_lsetxattr, __NR_fallocate,
+#ifdef __NR_openat2
+    __NR_openat2,
+#endif
+#ifdef __NR_creat
+    __NR_creat, __NR_rename, __NR_unlink, __NR_rmdir, __NR_link, __NR_mkdir, __NR_chmod,
+#endif
+};
+
 enum {
     REFUSED = RT_COUNT_OF(refused),
     REFUSED_CONNECTIONS = RT_COUNT_OF(refused_connections),
-    STEPS_MOST = 2 * (REFUSED + REFUSED_CONNECTIONS) + 48,
+    REFUSED_WRITES = RT_COUNT_OF(refused_writes),
+    STEPS_MOST = 2 * (REFUSED + REFUSED_CONNECTIONS + REFUSED_WRITES) + 64,
     X32_CALLS = 0x40000000
 };
 
@@ -130,7 +146,29 @@ static void put_refused(Filter *filter, const uint16_t *calls, size_t count)
     }
 }
 
-static void make(Filter *filter, bool is_strict, bool serves)
+// Of the calls of clone, those for threads; and for copies of this process, unless it only reads.
+static void put_clone(Filter *filter, bool has_copies)
+{
+    put(filter, BPF_JMP | BPF_JEQ | BPF_K, __NR_clone, 0, has_copies ? 9 : 4); // past all that is put here
+    if (has_copies) {
+        put_load(filter, argument(0) + sizeof(uint32_t));
+        put(filter, BPF_JMP | BPF_JEQ | BPF_K, process_key(), 0, 3);
+        put_load(filter, argument(0));
+        put(filter, BPF_JMP | BPF_JEQ | BPF_K, SIGCHLD, 0, 1);
+        put_end(filter, SECCOMP_RET_ALLOW);
+    }
+    put_load(filter, argument(0));
+    put(filter, BPF_JMP | BPF_JSET | BPF_K, CLONE_THREAD, 1, 0);
+    put_end(filter, REFUSE);
+    put_end(filter, SECCOMP_RET_ALLOW);
+}
+
+static void put_open(Filter *filter, uint32_t call, unsigned flags)
+{
+    put_bits(filter, call, flags, O_WRONLY | O_RDWR | O_CREAT | O_TRUNC, false);
+}
+
+static void make(Filter *filter, unsigned what)
 {
     put_load(filter, offsetof(struct seccomp_data, arch));
     put(filter, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0);
@@ -139,14 +177,21 @@ static void make(Filter *filter, bool is_strict, bool serves)
     put(filter, BPF_JMP | BPF_JGE | BPF_K, X32_CALLS, 0, 1);
     put_end(filter, REFUSE);
     put_refused(filter, refused, REFUSED);
-    put_refused(filter, refused_connections, serves ? 0 : REFUSED_CONNECTIONS);
+    put_refused(filter, refused_connections, what & CONFINE_SERVES ? 0 : REFUSED_CONNECTIONS);
     // The C library starts threads by clone where there is no clone3, whose flags a filter cannot see.
     put(filter, BPF_JMP | BPF_JEQ | BPF_K, __NR_clone3, 0, 1);
     put_end(filter, SECCOMP_RET_ERRNO | ENOSYS);
-    put_bits(filter, __NR_clone, 0, CLONE_THREAD, true);
+    put_clone(filter, !(what & CONFINE_READS));
     put_value(filter, __NR_tgkill, 0, (uint32_t)getpid(), true); // abort signals itself
     put_value(filter, __NR_ioctl, 1, TIOCSTI, false);            // puts words into a terminal
-    if (is_strict) {
+    if (what & CONFINE_READS) {
+        put_refused(filter, refused_writes, REFUSED_WRITES);
+        put_open(filter, __NR_openat, 2);
+#ifdef __NR_open
+        put_open(filter, __NR_open, 1);
+#endif
+    }
+    if (what & CONFINE_IS_STRICT) {
         put_bits(filter, __NR_mmap, 2, PROT_EXEC, false);
         put_bits(filter, __NR_mprotect, 2, PROT_EXEC, false);
     }
@@ -160,12 +205,13 @@ bool confine_filter_exists(void)
 }
 
 // SPEC_ALLOW: the program keeps no secrets from its scene, and the kernel would slow its loads down for them.
-void confine_filter(bool is_strict, bool serves)
+void confine_filter(unsigned what)
 {
     Filter filter = {.count = 0};
-    make(&filter, is_strict, serves);
+    const unsigned all = what & CONFINE_READS ? SECCOMP_FILTER_FLAG_TSYNC : 0;
+    make(&filter, what);
     struct sock_fprog program = {filter.count, filter.steps};
-    (void)syscall(__NR_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_SPEC_ALLOW, &program);
+    (void)syscall(__NR_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_SPEC_ALLOW | all, &program);
 }
 #else
 bool confine_filter_exists(void)
@@ -173,8 +219,8 @@ bool confine_filter_exists(void)
     return false;
 }
 
-void confine_filter(bool is_strict, bool serves)
+void confine_filter(unsigned what)
 {
-    (void)is_strict, (void)serves;
+    (void)what;
 }
 #endif
