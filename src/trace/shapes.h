@@ -61,8 +61,8 @@ typedef struct CsgTree {
     CsgParts *parts;     // of many; NULL: they are few; owned
 } CsgTree;
 
-// What stands for itself: a solid, or a CSG tree when the number is not below solid_count; of a ball with a bit that
-// tells it, so that nobody need look at it.
+// What stands for itself: a solid, or a CSG tree when the number is not below solid_count, or behind those a cluster of
+// such items; of a ball with a bit that tells it, so that nobody need look at it.
 typedef uint32_t ShapeItem;
 #define ITEM_SPHERE 0x80000000u
 
@@ -75,6 +75,13 @@ static inline uint32_t item_index(ShapeItem item)
 typedef struct ItemBox {
     float low[3], high[3];
 } ItemBox;
+
+// Items that stand together, far from all others for their size, with a tree of their own.
+typedef struct ShapeCluster {
+    Bvh tree;
+    const ShapeItem *items; // of the table, in the tree's order
+    const ItemBox *boxes;
+} ShapeCluster;
 
 struct ShapeTable {
     const Abandon *abandon; // NULL: no ray is left untraced; not owned
@@ -89,9 +96,14 @@ struct ShapeTable {
     Pages item_pages, box_pages;
     uint32_t unbounded_count, bounded_count;
     Bvh tree; // of the bounded ones; its leaves are runs of their items
+<<<<<<< HEAD
     MeshTable **meshes;      // the different ones; owned
     uint32_t *mesh_solids;   // the solids that are meshes, in their order, which is that of their faces' numbers
     uint32_t mesh_count, mesh_solid_count;
+=======
+    ShapeCluster *clusters; // NULL: none; owned
+    uint32_t cluster_count, clustered_count; // how many items they have, which stand behind the others
+>>>>>>> dev-laws
 };
 
 // The solid that a shape is on which is on a part.

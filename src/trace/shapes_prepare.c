@@ -7,6 +7,7 @@
 #include "scene/part.h"
 #include "trace/csg_parts.h"
 #include "trace/half_spaces.h"
+#include "trace/shapes_clusters.h"
 
 enum {
     LOOSE_MOST = 8,  // items that are asked for each ray for being far from all others
@@ -241,15 +242,17 @@ static bool meshes_init(ShapeTable *table, const Scene *scene, int threads)
 typedef struct Work {
     Bounds *solids, *nodes; // the roots' boxes are those of their csg_trees
     ShapeItem *bounded;
+    Bounds *clusters;
     Pages solid_pages, bounded_pages, ref_pages;
     const atomic_bool *cancel; // of building the tree
 } Work;
 
 static const Bounds *item_bounds(const ShapeTable *table, const Work *work, ShapeItem item)
 {
-    uint32_t index = item_index(item);
+    uint32_t index = item_index(item), tree = index - table->solid_count;
     return index < table->solid_count ? &work->solids[index]
-                                      : &work->nodes[table->csg_trees[index - table->solid_count].first_node];
+           : tree < table->csg_count  ? &work->nodes[table->csg_trees[tree].first_node]
+                                      : &work->clusters[tree - table->csg_count];
 }
 
 static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds *bounds)
@@ -333,31 +336,117 @@ static void part_with_far(ShapeTable *table, Work *work)
     table->bounded_count = kept;
 }
 
-static bool tree_init(ShapeTable *table, Work *work, int threads)
+static Bounds items_bounds(const ShapeTable *table, const Work *work, const ShapeItem *from, uint32_t count)
 {
     Bounds all = BOUNDS_NONE;
-    if (!pages_take(&work->ref_pages, table->bounded_count * sizeof(BvhRef)) ||
-        !pages_take(&table->box_pages, table->bounded_count * sizeof *table->boxes)) {
-        return false;
-    }
-    BvhRef *refs = work->ref_pages.memory;
-    table->boxes = table->box_pages.memory;
-    for (uint32_t i = 0; i < table->bounded_count; i++) {
-        const Bounds *own = item_bounds(table, work, work->bounded[i]);
+    for (uint32_t i = 0; i < count; i++) {
+        const Bounds *own = item_bounds(table, work, from[i]);
         all = (Bounds){vec3_least(all.low, own->low), vec3_greatest(all.high, own->high)};
     }
-    bvh_place(&table->tree, all.low, all.high);
-    for (uint32_t i = 0; i < table->bounded_count; i++) {
-        const Bounds *own = item_bounds(table, work, work->bounded[i]);
-        refs[i] = bvh_ref(&table->tree, own->low, own->high, i);
+    return all;
+}
+
+// The tree of some items, which with their boxes go to places of the table in its order.
+static bool tree_init(ShapeTable *table, Work *work, const ShapeItem *from, uint32_t count, uint32_t to, Bvh *tree,
+                      int threads)
+{
+    BvhRef *refs = work->ref_pages.memory;
+    Bounds all = items_bounds(table, work, from, count);
+    bvh_place(tree, all.low, all.high);
+    for (uint32_t i = 0; i < count; i++) {
+        const Bounds *own = item_bounds(table, work, from[i]);
+        refs[i] = bvh_ref(tree, own->low, own->high, i);
     }
-    bool done = bvh_build(&table->tree, refs, table->bounded_count, BVH_LEAF_ONE, threads, work->cancel);
-    for (uint32_t i = 0; done && i < table->bounded_count; i++) {
-        table->items[table->unbounded_count + i] = work->bounded[bvh_ref_index(&refs[i])];
-        memcpy(table->boxes[i].low, refs[i].low, sizeof table->boxes[i].low);
-        memcpy(table->boxes[i].high, refs[i].high, sizeof table->boxes[i].high);
+    bool done = bvh_build(tree, refs, count, BVH_LEAF_ONE, threads, work->cancel);
+    for (uint32_t i = 0; done && i < count; i++) {
+        table->items[table->unbounded_count + to + i] = from[bvh_ref_index(&refs[i])];
+        memcpy(table->boxes[to + i].low, refs[i].low, sizeof table->boxes[to + i].low);
+        memcpy(table->boxes[to + i].high, refs[i].high, sizeof table->boxes[to + i].high);
     }
     return done;
+}
+
+static double measure_size(const Bounds *bounds, Vec3 from, int axis)
+{
+    (void)from;
+    (void)axis;
+    return vec3_max_abs(vec3_sub(bounds->high, bounds->low));
+}
+
+static bool is_blurred(const ShapeTable *table, const Work *work)
+{
+    Bounds all = items_bounds(table, work, work->bounded, table->bounded_count);
+    double size = middle_of(table, work, measure_size, all.low, 0, 0.5);
+    return table->bounded_count >= 2 * CLUSTER_LEAST &&
+           size_is_blurred(size, vec3_max_abs(vec3_sub(all.high, all.low)));
+}
+
+// Each run of items becomes a cluster, an item that stands in their place among the others; behind these all theirs.
+static bool clusters_init(ShapeTable *table, Work *work, const PlacedItem *placed, const ItemRun *runs, uint32_t count)
+{
+    uint32_t all = table->bounded_count, kept = 0, at = 0;
+    table->clusters = calloc(count, sizeof *table->clusters);
+    work->clusters = malloc(count * sizeof *work->clusters);
+    ShapeItem *inner = malloc(all * sizeof *inner);
+    if (!table->clusters || !work->clusters || !inner) {
+        free(inner);
+        return false;
+    }
+    for (uint32_t c = 0; c <= count; c++) {
+        ItemRun run = c < count ? runs[c] : (ItemRun){all, all};
+        for (; at < run.begin; at++) {
+            work->bounded[kept++] = placed[at].item;
+        }
+        for (; at < run.end; at++) {
+            inner[table->clustered_count++] = placed[at].item;
+        }
+        if (c < count) {
+            work->bounded[kept++] = table->solid_count + table->csg_count + c;
+        }
+    }
+    table->bounded_count = kept;
+    bool done = true;
+    for (uint32_t c = 0, first = 0; done && c < count; c++) {
+        ShapeCluster *cluster = &table->clusters[c];
+        uint32_t own = runs[c].end - runs[c].begin;
+        work->clusters[c] = items_bounds(table, work, inner + first, own);
+        cluster->items = table->items + table->unbounded_count + kept + first;
+        cluster->boxes = table->boxes + kept + first;
+        done = tree_init(table, work, inner + first, own, kept + first, &cluster->tree, 1);
+        table->cluster_count++;
+        first += own;
+    }
+    free(inner);
+    return done;
+}
+
+static bool clusters_part(ShapeTable *table, Work *work)
+{
+    ItemRun runs[CLUSTERS_MOST];
+    PlacedItem *placed = malloc(table->bounded_count * sizeof *placed);
+    if (!placed) {
+        return false;
+    }
+    for (uint32_t i = 0; i < table->bounded_count; i++) {
+        placed[i] = (PlacedItem){item_bounds(table, work, work->bounded[i]), work->bounded[i]};
+    }
+    uint32_t count = clusters_find(placed, table->bounded_count, runs);
+    bool done = count == 0 || (count != UINT32_MAX && clusters_init(table, work, placed, runs, count));
+    free(placed);
+    return done;
+}
+
+// Room for all boxes, clusters' among them, and the trees.
+static bool trees_init(ShapeTable *table, Work *work, int threads)
+{
+    size_t most = table->bounded_count + (size_t)CLUSTERS_MOST;
+    if (!pages_take(&work->ref_pages, table->bounded_count * sizeof(BvhRef)) ||
+        !pages_take(&table->box_pages, most * sizeof *table->boxes)) {
+        return false;
+    }
+    table->boxes = table->box_pages.memory;
+    return (!is_blurred(table, work) || clusters_part(table, work)) &&
+           tree_init(table, work, work->bounded, table->bounded_count, 0, &table->tree, threads);
 }
 
 static bool items_init(ShapeTable *table, Work *work, int threads)
@@ -379,7 +468,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
         }
     }
     part_with_far(table, work);
-    return table->bounded_count == 0 || tree_init(table, work, threads);
+    return table->bounded_count == 0 || trees_init(table, work, threads);
 }
 
 // What the table and the work on it need; what was taken is given back in any case.
@@ -393,7 +482,7 @@ static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
         !pages_take(&work->solid_pages, scene->parts.count * sizeof *work->solids) ||
         !pages_take(&work->bounded_pages, most * sizeof *work->bounded) ||
         !pages_take(&table->solid_pages, scene->parts.count * sizeof *table->solids) ||
-        !pages_take(&table->item_pages, most * sizeof *table->items)) {
+        !pages_take(&table->item_pages, (most + CLUSTERS_MOST) * sizeof *table->items)) {
         return false;
     }
     work->solids = work->solid_pages.memory;
@@ -429,6 +518,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         done = done && items_init(table, &work, threads);
     }
     free(work.nodes);
+    free(work.clusters);
     pages_give(&work.solid_pages);
     pages_give(&work.bounded_pages);
     pages_give(&work.ref_pages);
@@ -451,6 +541,10 @@ void shapes_fini(ShapeTable *table)
     pages_give(&table->item_pages);
     pages_give(&table->box_pages);
     bvh_fini(&table->tree);
+    for (uint32_t i = 0; i < table->cluster_count; i++) {
+        bvh_fini(&table->clusters[i].tree);
+    }
+    free(table->clusters);
     *table = (ShapeTable){0};
 }
 
@@ -463,8 +557,12 @@ size_t shapes_bytes(const ShapeTable *table)
     for (uint32_t i = 0; i < table->csg_count; i++) {
         own += csg_parts_bytes(&table->csg_trees[i]);
     }
+    for (uint32_t i = 0; i < table->cluster_count; i++) {
+        own += sizeof *table->clusters + table->clusters[i].tree.node_count * sizeof(BvhNode);
+    }
     return own + table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
            table->csg_count * sizeof *table->csg_trees +
-           (table->unbounded_count + table->bounded_count) * sizeof *table->items +
-           table->bounded_count * sizeof *table->boxes + table->tree.node_count * sizeof *table->tree.nodes;
+           (table->unbounded_count + table->bounded_count + table->clustered_count) * sizeof *table->items +
+           (table->bounded_count + table->clustered_count) * sizeof *table->boxes +
+           table->tree.node_count * sizeof *table->tree.nodes;
 }

@@ -27,6 +27,7 @@ typedef struct ShapeQuery {
     double bounded_enter; // where the ray enters its box
     uint32_t at;          // of the item that was asked last among all
     const ItemBox *box;   // of the item that is asked; NULL: it has none
+    const Bvh *tree;      // that the box is in
     BoxLine line;
 } ShapeQuery;
 
@@ -34,7 +35,7 @@ typedef struct ShapeQuery {
 
 static void line_set(ShapeQuery *q)
 {
-    const Bvh *tree = &q->table->tree;
+    const Bvh *tree = q->tree;
     BoxLine *line = &q->line;
     Vec3 o = vec3_scale(tree->scale, vec3_sub(q->ray->origin, tree->centre));
     const double origin[3] = {o.x, o.y, o.z}, d[3] = {q->ray->direction.x, q->ray->direction.y, q->ray->direction.z};
@@ -406,6 +407,9 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     }
 }
 
+// The items of a cluster, in its own tree. Whoever is asked later has the query as it was.
+static void cluster_closest(ShapeQuery *q, const ShapeCluster *cluster, Foremost *first);
+
 static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
 {
     const ShapeTable *table = q->table;
@@ -415,11 +419,35 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
         solid_closest(q, index, first);
     } else if (table->abandon && trace_is_abandoned(table->abandon)) {
         return; // one ray may cross 10^5 parts
+    } else if (RT_UNLIKELY(index - table->solid_count >= table->csg_count)) {
+        cluster_closest(q, &table->clusters[index - table->solid_count - table->csg_count], first);
     } else if (item_enters(q, &enter) && enter <= first->limit) {
         span_refine(q, first);
         csg_closest(table, &table->csg_trees[index - table->solid_count], q->ray, q->start, start_error(q), enter,
                     first);
     }
+}
+
+static __attribute__((noinline)) void cluster_closest(ShapeQuery *q, const ShapeCluster *cluster, Foremost *first)
+{
+    BvhWalk walk;
+    BvhChild leaf;
+    const ItemBox *box = q->box;
+    BoxLine line = q->line;
+    if (!bvh_walk_start(&walk, &cluster->tree, q->ray->origin, q->ray->direction)) {
+        return;
+    }
+    q->tree = &cluster->tree;
+    q->line.is_set = false;
+    while (!(q->is_any && first->hit.shape != SHAPE_NONE) &&
+           bvh_walk_next(&walk, bvh_walk_limit(&walk, first->limit), &leaf)) {
+        uint32_t at = bvh_leaf_first(leaf);
+        q->box = &cluster->boxes[at];
+        item_closest(q, cluster->items[at], first);
+    }
+    q->tree = &q->table->tree;
+    q->box = box;
+    q->line = line;
 }
 
 // Leaves of the tree that the rays of a tile may meet, in nodes of their own, near ones first.
@@ -477,6 +505,7 @@ static void query_start(ShapeQuery *q, const ShapeTable *table, const Ray *ray, 
     q->is_any = is_any;
     q->bounded = NULL;
     q->box = NULL;
+    q->tree = &table->tree;
     q->line.is_set = false;
 }
 

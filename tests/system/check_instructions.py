@@ -6,7 +6,7 @@ vectors, and takes the way of double-word arithmetic in no ordinary scene; a sce
 either; the kernel that is chosen for a scene executes what one does that was compiled with nothing but what the scene
 has; the error of a sampled picture costs at most some 2 % of the sampling; spheres that a loop reads or computes cost a
 share of what they cost the usual way; stretched spheres cost at most twice what plain ones do; rays that miss a
-polyhedron of planes ask none of them; and ten times as many parts of one composite cost a ray at most twice as much. Counted by callgrind, so that no clock decides. The bars are of gcc's code; where
+polyhedron of planes ask none of them; boxes in two groups far apart cost what those of one group do; and ten times as many parts of one composite cost a ray at most twice as much. Counted by callgrind, so that no clock decides. The bars are of gcc's code; where
 clang's takes more, the bar of its own stands beside.
 SPDX-License-Identifier: MIT
 """
@@ -249,6 +249,25 @@ def judge_polyhedra(tap, folder):
     tap.ok(own <= boxed, f"polyhedra of planes take {own / boxed:.2f} times the instructions of those cut with boxes")
 
 
+CLUSTERS_BAR = 1.5
+
+
+def judge_clusters(tap, folder):
+    """Of boxes in two groups, of which one is so far away that nothing is seen of it, the other is traced as if it stood alone."""
+    taken = []
+    for far in ("", "translate 1e6 * x"):
+        draw, text = random.Random(3), ["camera { location <0.3, 0.4, -4> look_at 0 } light_source { <20, 30, -20> rgb 1 }"]
+        for i in range(3000):
+            at = [draw.uniform(-1, 1) for _ in range(3)]
+            text.append(f"box {{ <{at[0]:.4f}, {at[1]:.4f}, {at[2]:.4f}>, <{at[0] + .04:.4f}, {at[1] + .04:.4f}, {at[2] + .04:.4f}> {far if i % 2 else ''} }}")
+        taken.append(scene_instructions("\n".join(text), "render_film", folder, "-W32", "-H24"))
+    if not all(taken):
+        tap.skip("groups of boxes", "callgrind does not run rtlang")
+        return
+    ratio = taken[1] / taken[0]
+    tap.ok(ratio <= CLUSTERS_BAR, f"half of the boxes 10^6 away: {ratio:.2f} times the instructions, at most {CLUSTERS_BAR}")
+
+
 # Composites of many parts: what stands before and behind the parts.
 MANY_PARTS = {"a box without a union of spheres": ("difference { box { -1, 1 } union {", "} }"), "a merge of spheres": ("merge {", "}"),
               "an intersection with a union of spheres": ("intersection { box { -1, 1 } union {", "} }")}
@@ -290,6 +309,7 @@ def main():
         judge_repeated(tap, folder)
         judge_stretched(tap, folder)
         judge_polyhedra(tap, folder)
+        judge_clusters(tap, folder)
         judge_parts(tap, folder)
     return tap.done()
 
