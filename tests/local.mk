@@ -421,8 +421,7 @@ update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
   tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
   tests/unit/test_mesh$(EXEEXT) tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT) \
-  tests/unit/test_partial$(EXEEXT)
-  tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT) tests/unit/test_prism$(EXEEXT)
+  tests/unit/test_partial$(EXEEXT) tests/unit/test_prism$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
 	CHECK_LONG=1 tests/unit/test_prism$(EXEEXT)
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000

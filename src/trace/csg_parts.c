@@ -15,7 +15,7 @@ static bool is_leaf(const ShapeTable *table, const Bounds *surfaces, uint32_t in
 
 // Places the leaves' boxes and builds the tree of them; `refs` has room for all.
 static bool build(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, CsgParts *parts, BvhRef *refs,
-                  int threads)
+                  int threads, const atomic_bool *cancel)
 {
     Bounds all = BOUNDS_NONE;
     uint32_t count = 0;
@@ -35,14 +35,15 @@ static bool build(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
         }
     }
     parts->leaf_count = count;
-    bool done = bvh_build(&parts->tree, refs, count, BVH_LEAF_ONE, threads);
+    bool done = bvh_build(&parts->tree, refs, count, BVH_LEAF_ONE, threads, cancel);
     for (uint32_t i = 0; done && i < count; i++) {
         parts->leaves[i] = bvh_ref_index(&refs[i]);
     }
     return done;
 }
 
-bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads)
+bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads,
+                    const atomic_bool *cancel)
 {
     uint32_t count = 0;
     for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count; i++) {
@@ -61,7 +62,7 @@ bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surface
     parts->leaves = numbers;
     parts->loose = numbers + count;
     parts->are_leaves_unseen = true;
-    bool done = build(table, csg, surfaces, parts, pages.memory, threads);
+    bool done = build(table, csg, surfaces, parts, pages.memory, threads, cancel);
     pages_give(&pages);
     return done;
 }
@@ -78,8 +79,9 @@ void csg_parts_fini(CsgTree *csg)
 size_t csg_parts_bytes(const CsgTree *csg)
 {
     const CsgParts *parts = csg->parts;
-    return !parts ? 0 : sizeof *parts + csg->solid_count * sizeof *parts->leaves +
-                            parts->tree.node_count * sizeof *parts->tree.nodes;
+    return !parts ? 0
+                  : sizeof *parts + csg->solid_count * sizeof *parts->leaves +
+                        parts->tree.node_count * sizeof *parts->tree.nodes;
 }
 
 void csg_parts_along(const CsgParts *parts, const Ray *ray, double until, uint64_t *met)

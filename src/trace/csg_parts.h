@@ -1,12 +1,14 @@
 // The tree of a composite's parts, where they are many: a ray asks those alone whose boxes it meets.
 //
 // A part whose box is missed has no crossing, so the composite's counts have it as idle from the start, which is what
-// asking it would find. Parts that decide, meshes, which are followed along the line, and parts without bounds are loose:
-// each ray asks them, before all others.
+// asking it would find. Parts that decide, meshes, which are followed along the line, and parts without bounds are
+// loose: each ray asks them, before all others.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_CSG_PARTS_H
 #define TRACE_CSG_PARTS_H
+
+#include <stdatomic.h>
 
 #include "trace/bounds.h"
 #include "trace/shapes.h"
@@ -21,8 +23,9 @@ struct CsgParts {
 };
 
 // Sorts the parts of a composite, whose surfaces' boxes are given by solid. Leaves it without a tree where that is not
-// worth it. False when out of memory.
-bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads) RT_MUST_CHECK;
+// worth it. False when out of memory or cancelled.
+bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads,
+                    const atomic_bool *cancel) RT_MUST_CHECK;
 void csg_parts_fini(CsgTree *csg);
 size_t csg_parts_bytes(const CsgTree *csg);
 

@@ -16,12 +16,12 @@ static void refs_init(const MeshTable *table, BvhRef *refs)
     const Mesh *mesh = table->mesh;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
         Vec3 a = mesh_corner(mesh, face, 0), b = mesh_corner(mesh, face, 1), c = mesh_corner(mesh, face, 2);
-        refs[face] = bvh_ref(&table->tree, vec3_least(a, vec3_least(b, c)),
-                             vec3_greatest(a, vec3_greatest(b, c)), face);
+        refs[face] =
+            bvh_ref(&table->tree, vec3_least(a, vec3_least(b, c)), vec3_greatest(a, vec3_greatest(b, c)), face);
     }
 }
 
-MeshTable *mesh_table_new(const Mesh *mesh, int threads)
+MeshTable *mesh_table_new(const Mesh *mesh, int threads, const atomic_bool *cancel)
 {
     MeshTable *table = calloc(1, sizeof *table);
     Pages ref_pages = {0};
@@ -36,7 +36,7 @@ MeshTable *mesh_table_new(const Mesh *mesh, int threads)
         table->faces = table->face_pages.memory;
         bvh_place(&table->tree, mesh->low, mesh->high);
         refs_init(table, refs);
-        done = bvh_build(&table->tree, refs, mesh->face_count, BVH_LEAF_EIGHT, threads);
+        done = bvh_build(&table->tree, refs, mesh->face_count, BVH_LEAF_EIGHT, threads, cancel);
         for (uint32_t i = 0; done && i < mesh->face_count; i++) {
             table->faces[i] = bvh_ref_index(&refs[i]);
         }
@@ -135,8 +135,8 @@ bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t)
         for (uint32_t i = first; i < end; i++) {
             MeshPoint at;
             uint32_t own = table->faces[i];
-            if (mesh_ray_crosses(&query->shear, table->mesh, own, &at) && is_behind(at.t, own, cursor->t, cursor->face) &&
-                is_behind(nearest, found, at.t, own)) {
+            if (mesh_ray_crosses(&query->shear, table->mesh, own, &at) &&
+                is_behind(at.t, own, cursor->t, cursor->face) && is_behind(nearest, found, at.t, own)) {
                 nearest = at.t;
                 found = own;
             }

@@ -1,8 +1,8 @@
 // Meshes made ready for rays: a tree over the faces of each, which all parts that have it share.
 //
-// A ray is taken into the mesh's own space, where faces are asked by scene/mesh_ray.h. The walk of the tree for pictures
-// is in shapes_walk.h; composites ask for one crossing after the other. A ray that starts on a face leaves that face out, by
-// its number. Knows nothing of materials but where they stand.
+// A ray is taken into the mesh's own space, where faces are asked by scene/mesh_ray.h. The walk of the tree for
+// pictures is in shapes_walk.h; composites ask for one crossing after the other. A ray that starts on a face leaves
+// that face out, by its number. Knows nothing of materials but where they stand.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_MESH_H
@@ -20,7 +20,7 @@ struct MeshTable {
 };
 
 // Of a valid mesh; NULL when out of memory.
-MeshTable *mesh_table_new(const Mesh *mesh, int threads) RT_MUST_CHECK;
+MeshTable *mesh_table_new(const Mesh *mesh, int threads, const atomic_bool *cancel) RT_MUST_CHECK;
 void mesh_table_free(MeshTable *table);
 size_t mesh_table_bytes(const MeshTable *table);
 
@@ -54,7 +54,7 @@ static inline void mesh_query_make(MeshQuery *query, const Ray *object)
 }
 
 enum {
-    MESH_CROSSINGS = 6,      // of a mesh that a ray keeps in a composite: the next, and those that come with it
+    MESH_CROSSINGS = 6, // of a mesh that a ray keeps in a composite: the next, and those that come with it
     MESH_NO_FACE = UINT32_MAX,
 };
 

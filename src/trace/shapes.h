@@ -96,14 +96,11 @@ struct ShapeTable {
     Pages item_pages, box_pages;
     uint32_t unbounded_count, bounded_count;
     Bvh tree; // of the bounded ones; its leaves are runs of their items
-<<<<<<< HEAD
     MeshTable **meshes;      // the different ones; owned
     uint32_t *mesh_solids;   // the solids that are meshes, in their order, which is that of their faces' numbers
     uint32_t mesh_count, mesh_solid_count;
-=======
     ShapeCluster *clusters; // NULL: none; owned
     uint32_t cluster_count, clustered_count; // how many items they have, which stand behind the others
->>>>>>> dev-laws
 };
 
 // The solid that a shape is on which is on a part.

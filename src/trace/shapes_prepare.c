@@ -199,7 +199,7 @@ static const MeshTable *mesh_table(ShapeTable *table, const Mesh *mesh, int thre
             return table->meshes[i];
         }
     }
-    MeshTable *made = mesh_table_new(mesh, threads);
+    MeshTable *made = mesh_table_new(mesh, threads, cancel);
     if (made) {
         table->meshes[table->mesh_count++] = made;
     }
@@ -207,7 +207,7 @@ static const MeshTable *mesh_table(ShapeTable *table, const Mesh *mesh, int thre
 }
 
 // What meshes have beside numbers.
-static bool meshes_init(ShapeTable *table, const Scene *scene, int threads)
+static bool meshes_init(ShapeTable *table, const Scene *scene, int threads, const atomic_bool *cancel)
 {
     uint64_t faces = 0;
     uint32_t count = 0;
@@ -225,7 +225,7 @@ static bool meshes_init(ShapeTable *table, const Scene *scene, int threads)
         if (!solid_is_mesh(solid)) {
             continue;
         }
-        solid->mesh.table = mesh_table(table, part->mesh.mesh, threads);
+        solid->mesh.table = mesh_table(table, part->mesh.mesh, threads, cancel);
         if (!solid->mesh.table || faces + part->mesh.mesh->face_count >= 1u << SHAPE_INDEX_BITS) {
             return false;
         }
@@ -463,7 +463,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
         if (csg->solid_count > 0) {
             add_item(table, work, table->solid_count + i, root);
         }
-        if (!csg_parts_init(table, csg, work->solids, threads)) {
+        if (!csg_parts_init(table, csg, work->solids, threads, work->cancel)) {
             return false;
         }
     }
@@ -510,7 +510,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
             table->solids[i] = solid_of(&scene->parts.items[i], exponent, down, up);
             work.solids[i] = part_bounds(&scene->parts.items[i], exponent, down);
         }
-        done = meshes_init(table, scene, threads);
+        done = meshes_init(table, scene, threads, cancel);
         nodes_init(table, scene);
         for (uint32_t i = 0; i < table->csg_count; i++) {
             csg_init(table, &scene->composites.items[i], i);
