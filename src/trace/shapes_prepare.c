@@ -191,8 +191,8 @@ static void nodes_init(ShapeTable *table, const Scene *scene)
 
 // ---- meshes
 
-// The table of a mesh, built when it is met first; NULL when out of memory.
-static const MeshTable *mesh_table(ShapeTable *table, const Mesh *mesh, int threads)
+// The table of a mesh, built when it is met first; NULL when out of memory or cancelled.
+static const MeshTable *mesh_table(ShapeTable *table, const Mesh *mesh, int threads, const atomic_bool *cancel)
 {
     for (uint32_t i = table->mesh_count; i-- > 0;) { // copies mostly follow each other
         if (table->meshes[i]->mesh == mesh) {
