@@ -16,8 +16,8 @@ static void refs_init(const MeshTable *table, BvhRef *refs)
     const Mesh *mesh = table->mesh;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
         Vec3 a = mesh_corner(mesh, face, 0), b = mesh_corner(mesh, face, 1), c = mesh_corner(mesh, face, 2);
-        refs[face] = bvh_ref(&table->tree, vec3_least(a, vec3_least(b, c)),
-                             vec3_greatest(a, vec3_greatest(b, c)), face);
+        refs[face] =
+            bvh_ref(&table->tree, vec3_least(a, vec3_least(b, c)), vec3_greatest(a, vec3_greatest(b, c)), face);
     }
 }
 
@@ -135,8 +135,8 @@ bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t)
         for (uint32_t i = first; i < end; i++) {
             MeshPoint at;
             uint32_t own = table->faces[i];
-            if (mesh_ray_crosses(&query->shear, table->mesh, own, &at) && is_behind(at.t, own, cursor->t, cursor->face) &&
-                is_behind(nearest, found, at.t, own)) {
+            if (mesh_ray_crosses(&query->shear, table->mesh, own, &at) &&
+                is_behind(at.t, own, cursor->t, cursor->face) && is_behind(nearest, found, at.t, own)) {
                 nearest = at.t;
                 found = own;
             }
