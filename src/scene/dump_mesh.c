@@ -124,8 +124,8 @@ static void dump_triangles(const Scene *scene, const Part *part, const Mesh *mes
             }
         }
         if (part && mesh->face_textures && mesh->face_textures[face]) {
-            dump_triangle_texture(scene, scene->face_materials.items[part->mesh.materials + mesh->face_textures[face] - 1],
-                                  out);
+            dump_triangle_texture(
+                scene, scene->face_materials.items[part->mesh.materials + mesh->face_textures[face] - 1], out);
         }
         text_append(out, " }\n");
     }

@@ -63,7 +63,8 @@ static bool are_within(const uint32_t index[3], uint32_t count)
 
 bool mesh_is_valid(const Mesh *mesh)
 {
-    bool is_valid = mesh->face_count > 0 && mesh->face_count <= MESH_FACES_MOST && vec3_is_finite(mesh->inside_vector) &&
+    bool is_valid = mesh->face_count > 0 && mesh->face_count <= MESH_FACES_MOST &&
+                    vec3_is_finite(mesh->inside_vector) &&
                     are_finite((const float(*)[3])mesh->vertices, mesh->vertex_count) &&
                     are_finite((const float(*)[3])mesh->normals, mesh->normal_count);
     for (uint32_t face = 0; is_valid && face < mesh->face_count; face++) {

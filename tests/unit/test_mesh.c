@@ -1,7 +1,7 @@
 // Closed meshes are watertight: a ray from inside meets one, whatever it is aimed at, and a line crosses it as often
 // inward as outward. The rays go through inner points of faces, through edges and through corners, of meshes that are
-// regular, so that edges lie along axes, and of ones with slivers; from the middle, from near a corner, and off the mesh
-// as it is placed by a map.
+// regular, so that edges lie along axes, and of ones with slivers; from the middle, from near a corner, and off the
+// mesh as it is placed by a map.
 //
 // test_mesh [rays of a mesh [seed]]; 20 000 if nothing is said, 10^7 in all in `make check-long`; a new seed each run.
 //
@@ -114,19 +114,26 @@ static Vec3 aim_of(Random *random, const Mesh *mesh)
     Vec3 a = mesh_corner(mesh, face, 0), b = mesh_corner(mesh, face, 1), c = mesh_corner(mesh, face, 2);
     double u = random_between(random, 0.0, 1.0), v = random_between(random, 0.0, 1.0 - u);
     switch (random_below(random, 4)) {
-    case 0: return a;
-    case 1: return vec3_scale(0.5, vec3_add(a, b));
-    case 2: return vec3_add(vec3_scale(u, a), vec3_scale(1.0 - u, b));
-    default: return vec3_add(vec3_add(vec3_scale(u, a), vec3_scale(v, b)), vec3_scale(1.0 - u - v, c));
+    case 0:
+        return a;
+    case 1:
+        return vec3_scale(0.5, vec3_add(a, b));
+    case 2:
+        return vec3_add(vec3_scale(u, a), vec3_scale(1.0 - u, b));
+    default:
+        return vec3_add(vec3_add(vec3_scale(u, a), vec3_scale(v, b)), vec3_scale(1.0 - u - v, c));
     }
 }
 
 static Vec3 eye_of(Random *random, const Mesh *mesh)
 {
     switch (random_below(random, 3)) {
-    case 0: return vec3(0.0, 0.0, 0.0);
-    case 1: return vec3_scale(0.5, aim_of(random, mesh));
-    default: return vec3_scale(random_between(random, 0.0, 0.6), aim_of(random, mesh));
+    case 0:
+        return vec3(0.0, 0.0, 0.0);
+    case 1:
+        return vec3_scale(0.5, aim_of(random, mesh));
+    default:
+        return vec3_scale(random_between(random, 0.0, 0.6), aim_of(random, mesh));
     }
 }
 
@@ -147,7 +154,8 @@ static Geometry *geometry_of(Scene *scene, Mesh *mesh, Transform to_world)
     scene_init(scene);
     Part part = {.kind = PART_MESH, .node = NODE_NONE, .to_world = to_world};
     part.mesh = (PartMesh){mesh->low, mesh->high, mesh, 0};
-    if (!scene_add_mesh(scene, mesh) || !transform_invert(&to_world, &part.to_object) || !scene_add_part(scene, &part)) {
+    if (!scene_add_mesh(scene, mesh) || !transform_invert(&to_world, &part.to_object) ||
+        !scene_add_part(scene, &part)) {
         abort();
     }
     return prepare(scene, 0);
@@ -206,8 +214,10 @@ int main(int argc, char **argv)
     uint64_t rays = argc > 1 ? strtoull(argv[1], NULL, 10) : 20000, seed = random_seed(argc > 2 ? argv[2] : NULL);
     Random random = {seed};
     Transform none = transform_identity();
-    Transform turned = transform_compose(transform_rotate(vec3(20.0, 30.0, 40.0)), transform_scale(vec3(3.0, -0.7, 1.0)));
-    Transform far = transform_compose(transform_scale(vec3(1e-3, 1e-3, 1e-3)), transform_translate(vec3(5.0, -3.0, 2.0)));
+    Transform turned =
+        transform_compose(transform_rotate(vec3(20.0, 30.0, 40.0)), transform_scale(vec3(3.0, -0.7, 1.0)));
+    Transform far =
+        transform_compose(transform_scale(vec3(1e-3, 1e-3, 1e-3)), transform_translate(vec3(5.0, -3.0, 2.0)));
     check_points();
     check_closed("globe", globe(&random, 0.0, 1.0), none, rays, seed + 1);
     check_closed("rough globe", globe(&random, 0.3, 1.0), none, rays, seed + 2);

@@ -1,7 +1,8 @@
 // Meshes: `mesh { triangles }` and `mesh2 { lists }` become records that all copies share.
 //
-// Lists are read item by item into the record's own arrays; vectors that the grammar has packed come without nodes. What
-// POV-Ray holds in single precision is rounded to it here. Textures of faces stay descriptions until the mesh is placed.
+// Lists are read item by item into the record's own arrays; vectors that the grammar has packed come without nodes.
+// What POV-Ray holds in single precision is rounded to it here. Textures of faces stay descriptions until the mesh is
+// placed.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -43,7 +44,7 @@ typedef struct ListReader {
     const AstNode *packed; // that is being read; NULL: none
     uint32_t at;           // in it
     const double *numbers;
-    Span span;             // of the last item
+    Span span; // of the last item
 } ListReader;
 
 // ---- memory
@@ -53,8 +54,9 @@ static bool grow(MeshReader *reader, Growing *list, size_t wanted)
     Eval *ev = reader->block->ev;
     size_t room = list->room * 2 > 1024 ? list->room * 2 : 1024;
     room = room < wanted && list->room * 4 >= wanted ? wanted : room;
-    size_t taken = (reader->vertices.room + reader->normals.room + reader->faces.room + reader->face_normals.room) * 12 +
-                   reader->face_textures.room * 4;
+    size_t taken =
+        (reader->vertices.room + reader->normals.room + reader->faces.room + reader->face_normals.room) * 12 +
+        reader->face_textures.room * 4;
     if (eval_cancelled(ev)) {
         return false;
     }
@@ -128,9 +130,10 @@ static bool list_open(ListReader *list, Block *block, const AstNode *node)
 static bool list_ends_early(ListReader *list, uint32_t number)
 {
     const AstNode *item = cursor_peek(&list->cursor);
-    return list->ev->stop ? false
-                          : eval_fault(list->ev, DIAG_E0471, item ? item->span : cursor_end(&list->cursor),
-                                       "`%s` says that there are %u, and ends after %u", list->word, list->wanted, number);
+    return list->ev->stop
+               ? false
+               : eval_fault(list->ev, DIAG_E0471, item ? item->span : cursor_end(&list->cursor),
+                            "`%s` says that there are %u, and ends after %u", list->word, list->wanted, number);
 }
 
 // The next item, of which there are `number` so far, as three numbers: those of a vector, or one that stands for all.
@@ -293,8 +296,8 @@ static bool read_vectors(MeshReader *reader, const AstNode *node, Growing *into,
                 normalise(reader->block->ev, v, square == 0.0 ? list_span(&list) : SPAN_NONE);
             }
         }
-        is_fine = is_fine && grows(reader, into, list.wanted) &&
-                  narrow(&list, v, ((float(*)[3])into->items)[into->count]);
+        is_fine =
+            is_fine && grows(reader, into, list.wanted) && narrow(&list, v, ((float(*)[3])into->items)[into->count]);
         into->count += is_fine;
     }
     return list_close(&list, is_fine);
@@ -337,7 +340,8 @@ static bool face_is_line(const MeshReader *reader, uint32_t face)
     const uint32_t *corners = ((uint32_t(*)[3])reader->faces.items)[face];
     const float(*vertices)[3] = reader->vertices.items;
     Vec3 a = mesh_vector(vertices[corners[0]]);
-    Vec3 first = vec3_sub(mesh_vector(vertices[corners[1]]), a), second = vec3_sub(mesh_vector(vertices[corners[2]]), a);
+    Vec3 first = vec3_sub(mesh_vector(vertices[corners[1]]), a),
+         second = vec3_sub(mesh_vector(vertices[corners[2]]), a);
     return vec3_equal(vec3_cross(first, second), vec3(0.0, 0.0, 0.0));
 }
 
@@ -393,7 +397,8 @@ static bool read_face_textures(MeshReader *reader, ListReader *list, uint32_t fa
     numbers[1] = count > 1 ? numbers[1] : numbers[0];
     numbers[2] = count > 2 ? numbers[2] : numbers[0];
     if (reader->texture_count == 0) {
-        return eval_fault(list->ev, DIAG_E0473, list_span(list), "a face has a texture, and there is no `texture_list`");
+        return eval_fault(list->ev, DIAG_E0473, list_span(list),
+                          "a face has a texture, and there is no `texture_list`");
     }
     if (!to_indices(list, numbers, reader->texture_count, "textures", indices)) {
         return false;
@@ -687,8 +692,8 @@ static bool settle_textures(MeshReader *reader, MeshDesc *desc)
     places[0] = 0;
     for (uint32_t face = 0; face < mesh->face_count; face++) {
         uint32_t texture = mesh->face_textures[face];
-        mesh->face_textures[face] = texture & FACE_OF_CORNERS ? desc->single_count + (texture & ~FACE_OF_CORNERS) + 1
-                                                              : places[texture];
+        mesh->face_textures[face] =
+            texture & FACE_OF_CORNERS ? desc->single_count + (texture & ~FACE_OF_CORNERS) + 1 : places[texture];
     }
     mesh->texture_count = desc->single_count + reader->corner_count;
     return true;
@@ -827,12 +832,13 @@ static bool read_triangle_end(MeshReader *reader, Cursor *cursor, uint32_t *text
 {
     const AstNode *item;
     while ((item = cursor_peek(cursor))) {
-        bool is_texture = item->kind == AST_BLOCK && (item->symbol == (Symbol)W_texture ||
-                                                      item->symbol == (Symbol)W_texture_list);
+        bool is_texture =
+            item->kind == AST_BLOCK && (item->symbol == (Symbol)W_texture || item->symbol == (Symbol)W_texture_list);
         bool is_uv = item->kind == AST_WORD && item->symbol == (Symbol)W_uv_vectors;
         if (!is_texture && !is_uv) {
-            return block_fault(reader->block, DIAG_E0256, item->span,
-                               "a triangle of a mesh has nothing but its corners, uv_vectors and the name of a texture");
+            return block_fault(
+                reader->block, DIAG_E0256, item->span,
+                "a triangle of a mesh has nothing but its corners, uv_vectors and the name of a texture");
         }
         cursor_skip(cursor);
         if (is_texture && !read_triangle_texture(reader, item, texture)) {
@@ -851,7 +857,8 @@ static bool read_triangle_end(MeshReader *reader, Cursor *cursor, uint32_t *text
 
 static bool is_degenerate(const double c[3][3])
 {
-    Vec3 a = vec3((float)c[0][0], (float)c[0][1], (float)c[0][2]), b = vec3((float)c[1][0], (float)c[1][1], (float)c[1][2]);
+    Vec3 a = vec3((float)c[0][0], (float)c[0][1], (float)c[0][2]),
+         b = vec3((float)c[1][0], (float)c[1][1], (float)c[1][2]);
     Vec3 d = vec3((float)c[2][0], (float)c[2][1], (float)c[2][2]);
     return vec3_equal(vec3_cross(vec3_sub(b, a), vec3_sub(d, a)), vec3(0.0, 0.0, 0.0));
 }
@@ -865,7 +872,8 @@ static bool add_triangle(MeshReader *reader, const AstNode *item, double corners
         return true;
     }
     if (!grows(reader, &reader->faces, 0) || !grows(reader, &reader->face_normals, 0) ||
-        !grows(reader, &reader->face_textures, 0) || !may_have_faces(reader, (uint32_t)reader->faces.count, item->span)) {
+        !grows(reader, &reader->face_textures, 0) ||
+        !may_have_faces(reader, (uint32_t)reader->faces.count, item->span)) {
         return false;
     }
     if (reader->faces.count == MESH_FACES_MOST) {

@@ -1,7 +1,7 @@
 // Textures at the corners of a face: POV-Ray weighs them by how near the point is to each, as measured.
 //
-// They become the entries of a texture of their own, an average whose pattern's space is that of the face: x and y are the
-// weights of its second and its third corner there. So they are plain ones: a pattern would have to lie in another
+// They become the entries of a texture of their own, an average whose pattern's space is that of the face: x and y are
+// the weights of its second and its third corner there. So they are plain ones: a pattern would have to lie in another
 // space. Knows nothing of how meshes are read.
 //
 // SPDX-License-Identifier: MIT
@@ -25,10 +25,8 @@ static Transform face_space(const Mesh *mesh, uint32_t face)
     Vec3 a = mesh_corner(mesh, face, 0);
     Vec3 first = vec3_sub(mesh_corner(mesh, face, 1), a), second = vec3_sub(mesh_corner(mesh, face, 2), a);
     Vec3 across = vec3_scale(vec3_length(first), vec3_normalize(vec3_cross(first, second)));
-    return (Transform){{{first.x, first.y, first.z},
-                        {second.x, second.y, second.z},
-                        {across.x, across.y, across.z},
-                        {a.x, a.y, a.z}}};
+    return (Transform){
+        {{first.x, first.y, first.z}, {second.x, second.y, second.z}, {across.x, across.y, across.z}, {a.x, a.y, a.z}}};
 }
 
 void mesh_blend(const MeshDesc *mesh, const MeshCorners *corners, CornerBlend *blend)
