@@ -454,7 +454,7 @@ bool scene_add_leaf(Scene *scene, const Part *part)
 }
 
 // What a ray keeps of each interval of its line in a part: as an interval, and in a composite as two crossings.
-enum { INTERVAL_STACK = 64, CROSSINGS_STACK = 2 * 40 };
+enum { INTERVAL_STACK = 96, CROSSINGS_STACK = 2 * 40 };
 
 size_t scene_composite_stack(const Scene *scene)
 {

@@ -24,12 +24,12 @@ struct ClipChain {
 
 typedef struct Placement {
     Transform outer;
-    const TextureDesc *texture;      // of the nearest object around that has one, else #default's
-    Transform texture_outer;         // of the texture
-    const InteriorDesc *interior;    // of the nearest one that has one, or NULL
-    uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
+    const TextureDesc *texture;   // of the nearest object around that has one, else #default's
+    Transform texture_outer;      // of the texture
+    const InteriorDesc *interior; // of the nearest one that has one, or NULL
+    uint32_t body;                // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
-    const BoxOwner *whole; // the outermost union around that is one object, or NULL
+    const BoxOwner *whole;    // the outermost union around that is one object, or NULL
     bool is_inner, is_hollow; // inside of another object, whose word on this counts
     bool is_stretched;        // extent_is_stretched, of any object around
     bool is_look;             // of a light
@@ -98,8 +98,8 @@ static bool place_material(Eval *ev, const Placement *at, uint32_t inner_body, S
     ev->clear_count += !texture_hides_all(at->texture);
     if (at->body != RECORD_NONE && !inner_body && *material & MATERIAL_COMPOUND) {
         uint32_t *interior = &ev->scene->bodies.items[at->body].interior;
-        *interior = *interior == RECORD_NONE ? ev->scene->compounds.items[*material & ~MATERIAL_COMPOUND].interior
-                                             : *interior;
+        *interior =
+            *interior == RECORD_NONE ? ev->scene->compounds.items[*material & ~MATERIAL_COMPOUND].interior : *interior;
     }
     return true;
 }
@@ -266,6 +266,19 @@ static bool grow_nothing(Eval *ev, SchemaKind kind, const ObjectPart *part, cons
     return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch, part->span, &node);
 }
 
+// Intervals of a line in all parts of a composite: of a stack of STACK_BYTES they take half.
+enum { COMPOSITE_INTERVALS_MOST = 2 * COMPOSITE_PARTS_MOST };
+
+// Whether a ray has room for one more part. Those whose intervals are few are held by their number.
+static bool has_stack(const Scene *scene, const Composite *composite, const Part *part)
+{
+    uint64_t sum = primitive_intervals(part);
+    for (size_t i = composite->first_part; sum > 2 && i < scene->parts.count; i++) {
+        sum += primitive_intervals(&scene->parts.items[i]);
+    }
+    return sum <= COMPOSITE_INTERVALS_MOST;
+}
+
 static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
 {
     const ObjectPart *common = object;
@@ -289,6 +302,11 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     if (ev->scene->parts.count - composite->first_part >= COMPOSITE_PARTS_MOST) {
         return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
                           COMPOSITE_PARTS_MOST);
+    }
+    if (!has_stack(ev->scene, composite, &part)) {
+        return eval_fault(ev, DIAG_E0363, common->span,
+                          "a line may cross the shapes that are cut here more than %d times",
+                          2 * COMPOSITE_INTERVALS_MOST);
     }
     part.node = branch->parent;
     part.body = branch->body;
@@ -324,11 +342,15 @@ static bool grow_members(Eval *ev, SchemaKind kind, const UnionDesc *group, cons
 static bool grow_object(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
 {
     switch (kind) {
-    case KIND_UNION: return grow_members(ev, kind, object, branch, NODE_UNION);
-    case KIND_MERGE: return grow_members(ev, kind, object, branch, NODE_MERGE);
+    case KIND_UNION:
+        return grow_members(ev, kind, object, branch, NODE_UNION);
+    case KIND_MERGE:
+        return grow_members(ev, kind, object, branch, NODE_MERGE);
     case KIND_INTERSECTION:
-    case KIND_DIFFERENCE: return grow_members(ev, kind, object, branch, NODE_INTERSECTION);
-    default: return grow_leaf(ev, kind, object, branch);
+    case KIND_DIFFERENCE:
+        return grow_members(ev, kind, object, branch, NODE_INTERSECTION);
+    default:
+        return grow_leaf(ev, kind, object, branch);
     }
 }
 
@@ -502,7 +524,8 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
     bool is_union = kind == KIND_UNION && !part->was_turned;
     inner.whole = outer->whole || !is_union || !inner.is_hidden_fixed ? outer->whole : &whole;
     ev->object_count += is_counted && (!is_union || inner.whole);
-    bool is_body = is_union ? part->interior || outer->body == RECORD_NONE : part->interior && outer->body != RECORD_NONE;
+    bool is_body =
+        is_union ? part->interior || outer->body == RECORD_NONE : part->interior && outer->body != RECORD_NONE;
     if (!is_body) {
         return is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);
     }
@@ -533,7 +556,6 @@ double world_scale(const Eval *ev)
 bool object_place(Eval *ev, SchemaKind kind, const void *object)
 {
     Transform outer = world_transform(ev);
-    Placement world = {.outer = outer, .texture = ev->objects->defaults, .texture_outer = outer,
-                       .body = RECORD_NONE};
+    Placement world = {.outer = outer, .texture = ev->objects->defaults, .texture_outer = outer, .body = RECORD_NONE};
     return place(ev, kind, object, &world);
 }
