@@ -24,12 +24,12 @@ struct ClipChain {
 
 typedef struct Placement {
     Transform outer;
-    const TextureDesc *texture;   // of the nearest object around that has one, else #default's
-    Transform texture_outer;      // of the texture
-    const InteriorDesc *interior; // of the nearest one that has one, or NULL
-    uint32_t body;                // Scene.bodies that it is in, or RECORD_NONE
+    const TextureDesc *texture;      // of the nearest object around that has one, else #default's
+    Transform texture_outer;         // of the texture
+    const InteriorDesc *interior;    // of the nearest one that has one, or NULL
+    uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
-    const BoxOwner *whole;    // the outermost union around that is one object, or NULL
+    const BoxOwner *whole; // the outermost union around that is one object, or NULL
     bool is_inner, is_hollow; // inside of another object, whose word on this counts
     bool is_stretched;        // extent_is_stretched, of any object around
     bool is_look;             // of a light
@@ -98,8 +98,8 @@ static bool place_material(Eval *ev, const Placement *at, uint32_t inner_body, S
     ev->clear_count += !texture_hides_all(at->texture);
     if (at->body != RECORD_NONE && !inner_body && *material & MATERIAL_COMPOUND) {
         uint32_t *interior = &ev->scene->bodies.items[at->body].interior;
-        *interior =
-            *interior == RECORD_NONE ? ev->scene->compounds.items[*material & ~MATERIAL_COMPOUND].interior : *interior;
+        *interior = *interior == RECORD_NONE ? ev->scene->compounds.items[*material & ~MATERIAL_COMPOUND].interior
+                                             : *interior;
     }
     return true;
 }
@@ -342,15 +342,11 @@ static bool grow_members(Eval *ev, SchemaKind kind, const UnionDesc *group, cons
 static bool grow_object(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
 {
     switch (kind) {
-    case KIND_UNION:
-        return grow_members(ev, kind, object, branch, NODE_UNION);
-    case KIND_MERGE:
-        return grow_members(ev, kind, object, branch, NODE_MERGE);
+    case KIND_UNION: return grow_members(ev, kind, object, branch, NODE_UNION);
+    case KIND_MERGE: return grow_members(ev, kind, object, branch, NODE_MERGE);
     case KIND_INTERSECTION:
-    case KIND_DIFFERENCE:
-        return grow_members(ev, kind, object, branch, NODE_INTERSECTION);
-    default:
-        return grow_leaf(ev, kind, object, branch);
+    case KIND_DIFFERENCE: return grow_members(ev, kind, object, branch, NODE_INTERSECTION);
+    default: return grow_leaf(ev, kind, object, branch);
     }
 }
 
@@ -524,8 +520,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
     bool is_union = kind == KIND_UNION && !part->was_turned;
     inner.whole = outer->whole || !is_union || !inner.is_hidden_fixed ? outer->whole : &whole;
     ev->object_count += is_counted && (!is_union || inner.whole);
-    bool is_body =
-        is_union ? part->interior || outer->body == RECORD_NONE : part->interior && outer->body != RECORD_NONE;
+    bool is_body = is_union ? part->interior || outer->body == RECORD_NONE : part->interior && outer->body != RECORD_NONE;
     if (!is_body) {
         return is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);
     }
@@ -556,6 +551,7 @@ double world_scale(const Eval *ev)
 bool object_place(Eval *ev, SchemaKind kind, const void *object)
 {
     Transform outer = world_transform(ev);
-    Placement world = {.outer = outer, .texture = ev->objects->defaults, .texture_outer = outer, .body = RECORD_NONE};
+    Placement world = {.outer = outer, .texture = ev->objects->defaults, .texture_outer = outer,
+                       .body = RECORD_NONE};
     return place(ev, kind, object, &world);
 }
