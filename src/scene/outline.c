@@ -142,10 +142,22 @@ static inline bool is_beside_line(const double *box, const void *asked)
     return low[0] > line->high.u || high[0] < line->low.u || low[1] > line->high.v || high[1] < line->low.v;
 }
 
-uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoint *points, bool *is_asked)
+// Whether the line passes an end of the piece so near that rounding decides on which side.
+static bool passes_end(const Piece *piece, const OutlineLine *line)
+{
+    const double *ends[2] = {piece->points, piece->end};
+    bool passes = false;
+    for (int i = 0; i < 2; i++) {
+        double u = line->a * ends[i][0], v = line->c * ends[i][1];
+        passes = passes || fabs(u + v + line->b) <= 0x1p-46 * (fabs(u) + fabs(v) + fabs(line->b));
+    }
+    return passes;
+}
+
+uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoint *points, OutlineAnswer *answer)
 {
     uint32_t stride = outline_stride(list), pieces = outline_piece_count(list), count = 0;
-    *is_asked = false;
+    OutlineAnswer found_so_far = OUTLINE_FAR;
     for (uint32_t i = 0; i < pieces; i++) {
         if (skips_group(list, stride, &i, is_beside_line, line)) {
             continue;
@@ -155,11 +167,16 @@ uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoin
             continue;
         }
         double roots[ROOTS_MOST];
-        *is_asked = true;
+        if (answer && found_so_far != OUTLINE_DOUBTFUL) {
+            found_so_far = passes_end(&piece, line) ? OUTLINE_DOUBTFUL : OUTLINE_NEAR;
+        }
         unsigned found = piece_cross(&piece, line->a, line->b, line->c, roots);
         for (unsigned k = 0; k < found; k++) {
             points[count++] = piece_at(&piece, roots[k]);
         }
+    }
+    if (answer) {
+        *answer = found_so_far;
     }
     return count;
 }

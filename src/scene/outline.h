@@ -90,6 +90,9 @@ typedef struct OutlineLine {
     OutlinePoint low, high;
 } OutlineLine;
 
+// What was asked of a part of a line: no piece is near, some are, or one of them ends on the line but for rounding.
+typedef enum OutlineAnswer { OUTLINE_FAR, OUTLINE_NEAR, OUTLINE_DOUBTFUL } OutlineAnswer;
+
 #define OUTLINE_ALL                                                                                                    \
     {-(double)INFINITY, -(double)INFINITY},                                                                            \
     {                                                                                                                  \
@@ -97,8 +100,8 @@ typedef struct OutlineLine {
     }
 
 // Where the line crosses it, in the order of pieces, but for pieces that are not in the box: of a whole line an even
-// number of points. *is_asked: some are.
-uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoint *points, bool *is_asked);
+// number of points. `answer` may be NULL.
+uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoint *points, OutlineAnswer *answer);
 
 bool outline_holds(const Numbers *list, OutlinePoint p);
 

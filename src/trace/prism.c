@@ -46,6 +46,20 @@ static void sort(double *t, uint32_t count)
     }
 }
 
+// The line's image, turned so that where it runs along an edge or through a corner these are on the side of it that
+// outline_holds has them on for its points.
+static OutlineLine line_of(const Ray *ray)
+{
+    Vec3 o = ray->origin, d = ray->direction;
+    OutlineLine line = {-d.z, d.z * o.x - d.x * o.z, d.x, OUTLINE_ALL};
+    if (line.c < 0.0 || (line.c == 0.0 && line.a > 0.0)) {
+        line.a = -line.a;
+        line.b = -line.b;
+        line.c = -line.c;
+    }
+    return line;
+}
+
 static void wall_take(const Ray *ray, double square, const OutlinePoint *points, WallCrossings *wall)
 {
     Vec3 o = ray->origin, d = ray->direction;
@@ -58,13 +72,12 @@ static void cross_straight(const Numbers *outline, const Ray *ray, OutlinePoint 
 {
     Vec3 o = ray->origin, d = ray->direction;
     double square = d.x * d.x + d.z * d.z;
-    bool is_asked;
     if (square == 0.0) { // along the wall
         wall->is_inside = outline_holds(outline, (OutlinePoint){o.x, o.z});
         return;
     }
-    OutlineLine line = {-d.z, d.z * o.x - d.x * o.z, d.x, OUTLINE_ALL};
-    wall->count = outline_cross(outline, &line, points, &is_asked);
+    OutlineLine line = line_of(ray);
+    wall->count = outline_cross(outline, &line, points, NULL);
     wall_take(ray, square, points, wall);
 }
 
@@ -75,34 +88,38 @@ static bool cross_between(const Numbers *outline, const Ray *ray, const RayInter
 {
     Vec3 o = ray->origin, d = ray->direction, first = ray_at(*ray, slab->enter), last = ray_at(*ray, slab->leave);
     double square = d.x * d.x + d.z * d.z;
-    OutlineLine line = {-d.z,
-                        d.z * o.x - d.x * o.z,
-                        d.x,
-                        {less_of(first.x, last.x), less_of(first.z, last.z)},
-                        {greater_of(first.x, last.x), greater_of(first.z, last.z)}};
+    OutlineLine line = line_of(ray);
+    line.low = (OutlinePoint){less_of(first.x, last.x), less_of(first.z, last.z)};
+    line.high = (OutlinePoint){greater_of(first.x, last.x), greater_of(first.z, last.z)};
     wall->is_inside = outline_holds(outline, (OutlinePoint){first.x, first.z});
     wall->count = 0;
-    bool is_asked = false;
-    uint32_t found = square > 0.0 ? outline_cross(outline, &line, points, &is_asked) : 0;
+    OutlineAnswer answer = OUTLINE_FAR;
+    uint32_t found = square > 0.0 ? outline_cross(outline, &line, points, &answer) : 0;
+    if (answer == OUTLINE_DOUBTFUL) {
+        return false;
+    }
+    double room = 0x1p-30 * (fabs(slab->enter) + fabs(slab->leave)); // of an end, where a point may be on either side
     for (uint32_t i = 0; i < found; i++) {
         double t = ((points[i].u - o.x) * d.x + (points[i].v - o.z) * d.z) / square;
+        if (fabs(t - slab->enter) <= room || fabs(t - slab->leave) <= room) {
+            return false;
+        }
         wall->t[wall->count] = t;
         wall->count += t > slab->enter && t < slab->leave;
     }
     bool is_inside_end = wall->is_inside != (bool)(wall->count & 1);
-    return !is_asked || is_inside_end == outline_holds(outline, (OutlinePoint){last.x, last.z});
+    return answer == OUTLINE_FAR || is_inside_end == outline_holds(outline, (OutlinePoint){last.x, last.z});
 }
 
 static void cross_conic(const Numbers *outline, const Ray *ray, OutlinePoint *points, WallCrossings *wall)
 {
     Vec3 o = ray->origin, d = ray->direction, n = vec3_cross(o, d);
-    bool is_asked;
     if (vec3_equal(n, vec3(0.0, 0.0, 0.0))) { // through the tip
         wall->is_inside = d.y != 0.0 && outline_holds(outline, (OutlinePoint){d.x / d.y, d.z / d.y});
         return;
     }
     OutlineLine line = {n.x, n.y, n.z, OUTLINE_ALL};
-    wall->count = outline_cross(outline, &line, points, &is_asked);
+    wall->count = outline_cross(outline, &line, points, NULL);
     double t_tip = -o.y / d.y;
     for (uint32_t i = 0; i < wall->count; i++) {
         double u = points[i].u, v = points[i].v;

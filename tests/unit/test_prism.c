@@ -145,7 +145,8 @@ static void oracle(const Outline *outline, const Ray *ray, Crossings *out)
     unsigned stored = outline_degree(&outline->list);
     Real ox = ray->origin.x, oy = ray->origin.y, oz = ray->origin.z;
     Real dx = ray->direction.x, dy = ray->direction.y, dz = ray->direction.z;
-    const Real straight[3] = {-dz, dz * ox - dx * oz, dx};
+    Real turn = dx < 0 || (dx == 0 && dz < 0) ? -1 : 1; // what lies on the line is on one side of it
+    const Real straight[3] = {turn * -dz, turn * (dz * ox - dx * oz), turn * dx};
     const Real conic[3] = {oy * dz - oz * dy, oz * dx - ox * dz, ox * dy - oy * dx};
     out->count = 0;
     out->is_inside_end = false;

@@ -294,6 +294,19 @@ static bool grow_nothing(Eval *ev, SchemaKind kind, const ObjectPart *part, cons
     return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch, part->span, &node);
 }
 
+// Intervals of a line in all parts of a composite: of a stack of STACK_BYTES they take half.
+enum { COMPOSITE_INTERVALS_MOST = 2 * COMPOSITE_PARTS_MOST };
+
+// Whether a ray has room for one more part. Those whose intervals are few are held by their number.
+static bool has_stack(const Scene *scene, const Composite *composite, const Part *part)
+{
+    uint64_t sum = primitive_intervals(part);
+    for (size_t i = composite->first_part; sum > 2 && i < scene->parts.count; i++) {
+        sum += primitive_intervals(&scene->parts.items[i]);
+    }
+    return sum <= COMPOSITE_INTERVALS_MOST;
+}
+
 static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
 {
     const ObjectPart *common = object;
@@ -317,6 +330,11 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     if (ev->scene->parts.count - composite->first_part >= COMPOSITE_PARTS_MOST) {
         return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
                           COMPOSITE_PARTS_MOST);
+    }
+    if (!has_stack(ev->scene, composite, &part)) {
+        return eval_fault(ev, DIAG_E0363, common->span,
+                          "a line may cross the shapes that are cut here more than %d times",
+                          2 * COMPOSITE_INTERVALS_MOST);
     }
     part.node = branch->parent;
     part.body = branch->body;
