@@ -58,12 +58,9 @@ static bool node_is_inside(const TreeNode *node, uint32_t inside)
     return (inside >= node->needed) != node->is_inverse;
 }
 
-// The ray goes into or out of a leaf's set.
-static void traversal_toggle(CsgTraversal *p, uint32_t index)
+// The ray goes into or out of a child of a node.
+static void traversal_count(CsgTraversal *p, uint32_t at, bool enters)
 {
-    bool *state = &p->is_inside[index];
-    bool enters = *state = !*state;
-    uint32_t at = traversal_solid(p, index)->node;
     while (at != NODE_NONE) {
         const TreeNode *node = &p->table->nodes[at];
         uint32_t *inside = &p->inside[at - p->csg->first_node];
@@ -75,6 +72,13 @@ static void traversal_toggle(CsgTraversal *p, uint32_t index)
         enters = !before;
         at = node->parent;
     }
+}
+
+// The ray goes into or out of a leaf's set.
+static void traversal_toggle(CsgTraversal *p, uint32_t index)
+{
+    p->is_inside[index] = !p->is_inside[index];
+    traversal_count(p, traversal_solid(p, index)->node, p->is_inside[index]);
 }
 
 // ---- the heap
@@ -459,6 +463,71 @@ static void traversal_reach(CsgTraversal *p, RayStart start, double until)
     p->nearest_share = 0.0;
 }
 
+// ---- many parts that only clip, joined by one node
+
+// Whether the ray is inside of one of them all the way along some crossings.
+typedef struct Joined {
+    CsgTraversal *p;
+    double from, to;
+    bool is_inside, is_uncertain;
+} Joined;
+
+static bool joined_ask(void *client, uint32_t index)
+{
+    Joined *of = client;
+    CsgTraversal *p = of->p;
+    const Solid *solid = traversal_solid(p, index);
+    RayInterval interval[INTERVALS_MOST];
+    p->objects[index] = solid_ray(solid, p->ray);
+    if (solid_intervals(solid, &p->objects[index], (SideLeft){SIDE_NONE, false}, interval) == 0) {
+        return false;
+    }
+    double enter_bound = end_bound(p, index, interval->enter, interval->enter_side);
+    double leave_bound = end_bound(p, index, interval->leave, interval->leave_side);
+    of->is_inside = interval->enter + enter_bound < of->from && interval->leave - leave_bound > of->to;
+    bool is_apart = interval->leave + leave_bound < of->from || interval->enter - enter_bound > of->to;
+    of->is_uncertain = of->is_uncertain || !(of->is_inside || is_apart);
+    return of->is_inside;
+}
+
+static void joined_set(CsgTraversal *p, bool is_inside)
+{
+    uint32_t at = p->csg->parts->joined;
+    if ((p->inside[at - p->csg->first_node] > 0) != is_inside) {
+        traversal_count(p, at, is_inside);
+    }
+}
+
+// Puts the node that joins them into its state where the ray has crossings, without asking more of them than one that
+// the ray is inside of. False where rounding may decide.
+static bool joined_settle(CsgTraversal *p, uint32_t begin, uint32_t end)
+{
+    Joined of = {p, (double)INFINITY, -(double)INFINITY, false, false};
+    bool is_bounded = true;
+    for (uint32_t i = begin; i < end; i++) {
+        Crossing *c = &p->crossings[i];
+        double bound = 2.0 * crossing_bound(p, c);
+        is_bounded = is_bounded && bound < c->t;
+        of.from = c->t - bound < of.from ? c->t - bound : of.from;
+        of.to = c->t + bound > of.to ? c->t + bound : of.to;
+    }
+    if (!is_bounded || !(of.from > 2.0 * p->start_error)) {
+        return false;
+    }
+    csg_parts_at(p->csg->parts, p->ray, of.from, of.to, joined_ask, &of);
+    joined_set(p, of.is_inside);
+    return of.is_inside || !of.is_uncertain;
+}
+
+// The crossings that were taken last are put back, and all leaves asked.
+static void joined_give_up(CsgTraversal *p, RayStart start, uint32_t end)
+{
+    joined_set(p, false);
+    p->count = end;
+    traversal_reach(p, start, (double)INFINITY);
+    traversal_order(p);
+}
+
 // ---- one node of convex leaves
 
 // The crossings of such a tree by leaf: of each it has two at most. What is missing lies behind the start, or nowhere.
@@ -584,7 +653,10 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
         return;
     }
     traversal_set_states(&p);
-    if (csg->parts) {
+    bool asks_joined = csg->parts && csg->parts->joined != NODE_NONE;
+    if (asks_joined) {
+        p.reached = (double)INFINITY;
+    } else if (csg->parts) {
         traversal_reach(&p, start, p.reached);
     }
     traversal_order(&p);
@@ -603,7 +675,10 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
         while (p.count > 0 && !crossing_is_apart(&p, &earliest, &crossings[0])) {
             begin = heap_pop(&p);
         }
-        if (traversal_cross(&p, begin, end, first)) {
+        if (asks_joined && !joined_settle(&p, begin, end)) {
+            asks_joined = false;
+            joined_give_up(&p, start, end);
+        } else if (traversal_cross(&p, begin, end, first)) {
             return;
         }
     }
