@@ -15,15 +15,15 @@
 
 typedef struct Crossing {
     double t;
-    double error;     // how far t may be off by rounding; before has_error how much it is at most
-    double bound;     // of that, if has_bound
-    uint32_t solid;   // within the CSG tree
-    uint32_t face;    // of a mesh, MESH_NO_FACE else
+    double error;   // how far t may be off by rounding; before has_error how much it is at most
+    double bound;   // of that, if has_bound
+    uint32_t solid; // within the CSG tree
+    uint32_t face;  // of a mesh, MESH_NO_FACE else
     uint8_t side;
-    bool leaves;    // the solid's own inside, not minding PART_INVERSE
-    bool is_film;   // changes nothing: of a flat leaf, or within one
-    bool has_surface; // one that can be seen: that of a shape that clips cannot
-    bool is_hidden; // found before the crossings of its group
+    bool leaves;               // the solid's own inside, not minding PART_INVERSE
+    bool is_film;              // changes nothing: of a flat leaf, or within one
+    bool has_surface;          // one that can be seen: that of a shape that clips cannot
+    bool is_hidden;            // found before the crossings of its group
     bool has_error, has_bound; // computed when they are asked for first: most crossings are never come to
 } Crossing;
 
@@ -33,22 +33,22 @@ typedef struct CsgTraversal {
     const CsgTree *csg;
     const Ray *ray;
     RayStart start;
-    double start_error;    // how far along the ray its start may be off its surface
-    double enter;          // where the ray comes to the CSG tree's box
+    double start_error;                 // how far along the ray its start may be off its surface
+    double enter;                       // where the ray comes to the CSG tree's box
     double origin_size, direction_size; // sums of the ray's coordinates' sizes
-    double first_surface;  // the least t of crossings that have a surface
-    double nearest_share;  // none of these that is left is nearer than this share of its t; 0: not known
-    double greatest_bound; // of these; less than 0: not known
-    uint32_t *inside;      // for each node
-    uint64_t *met;         // a bit for each leaf that was asked, where parts have a tree
-    double reached;        // leaves whose boxes are entered behind that have not been asked yet
-    bool *is_inside;       // for each solid, PART_INVERSE minded; while crossings are found: if the ray starts inside
-    Ray *objects;          // the ray in each solid's space, but for planes
-    Crossing *crossings;   // a heap by t, then by number
+    double first_surface;               // the least t of crossings that have a surface
+    double nearest_share;               // none of these that is left is nearer than this share of its t; 0: not known
+    double greatest_bound;              // of these; less than 0: not known
+    uint32_t *inside;                   // for each node
+    uint64_t *met;                      // a bit for each leaf that was asked, where parts have a tree
+    double reached;                     // leaves whose boxes are entered behind that have not been asked yet
+    bool *is_inside;        // for each solid, PART_INVERSE minded; while crossings are found: if the ray starts inside
+    Ray *objects;           // the ray in each solid's space, but for planes
+    Crossing *crossings;    // a heap by t, then by number
     RayInterval *intervals; // of the solid that is asked
     uint32_t count;
-    MeshCursor *cursors;   // of its meshes
-    bool is_over;          // nothing more of it can be seen
+    MeshCursor *cursors;                // of its meshes
+    bool is_over;                       // nothing more of it can be seen
     double decided_from, decided_until; // where the ray is inside of all that decide, as far as it is known
 } CsgTraversal;
 
@@ -62,12 +62,9 @@ static bool node_is_inside(const TreeNode *node, uint32_t inside)
     return (inside >= node->needed) != node->is_inverse;
 }
 
-// The ray goes into or out of a leaf's set.
-static void traversal_toggle(CsgTraversal *p, uint32_t index)
+// The ray goes into or out of a child of a node.
+static void traversal_count(CsgTraversal *p, uint32_t at, bool enters)
 {
-    bool *state = &p->is_inside[index];
-    bool enters = *state = !*state;
-    uint32_t at = traversal_solid(p, index)->node;
     while (at != NODE_NONE) {
         const TreeNode *node = &p->table->nodes[at];
         uint32_t *inside = &p->inside[at - p->csg->first_node];
@@ -79,6 +76,13 @@ static void traversal_toggle(CsgTraversal *p, uint32_t index)
         enters = !before;
         at = node->parent;
     }
+}
+
+// The ray goes into or out of a leaf's set.
+static void traversal_toggle(CsgTraversal *p, uint32_t index)
+{
+    p->is_inside[index] = !p->is_inside[index];
+    traversal_count(p, traversal_solid(p, index)->node, p->is_inside[index]);
 }
 
 // ---- the heap
@@ -217,13 +221,12 @@ static bool end_is_at_start(const CsgTraversal *p, uint32_t index, double t, uin
 RT_ALWAYS_INLINE bool traversal_is_past(const CsgTraversal *p, uint32_t index, double t, uint8_t side, double length,
                                         bool is_beside)
 {
-    return !(t > 0.0) ||
-           (is_beside && !(t > length + p->start_error) && end_is_at_start(p, index, t, side, length));
+    return !(t > 0.0) || (is_beside && !(t > length + p->start_error) && end_is_at_start(p, index, t, side, length));
 }
 
 // Adds the ends of an interval that the ray crosses later; true when it starts inside of it.
-RT_ALWAYS_INLINE bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterval *interval, double room, bool is_start,
-                               bool is_beside)
+RT_ALWAYS_INLINE bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterval *interval, double room,
+                                         bool is_start, bool is_beside)
 {
     bool is_film = solid_is_film(traversal_solid(p, index), interval->leave_side);
     bool is_inside = (is_start && solid_is_convex(traversal_solid(p, index))) ||
@@ -245,9 +248,8 @@ static bool face_is_past(const CsgTraversal *p, uint32_t index, double t, uint32
     const Solid *solid = traversal_solid(p, index);
     bool is_left = p->start.shape != SHAPE_NONE && shape_kind(p->start.shape) == SHAPE_FACE &&
                    shape_index(p->start.shape) == solid->mesh.first_face + face;
-    return is_left ||
-           (starts_beside(p->table, p->start, solid) &&
-            !(t > mesh_crossing_error(solid, p->ray, &p->objects[index], t, face) + p->start_error));
+    return is_left || (starts_beside(p->table, p->start, solid) &&
+                       !(t > mesh_crossing_error(solid, p->ray, &p->objects[index], t, face) + p->start_error));
 }
 
 // A mesh of a traversal, for mesh_count.
@@ -300,7 +302,8 @@ static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
     p->objects[index] = solid_ray(solid, p->ray);
     *cursor = (MeshCursor){.face = MESH_NO_FACE};
     mesh_query_make(&cursor->query, &p->objects[index]);
-    bool is_inside = !solid_is_flat(solid) && mesh_count(solid, cursor, mesh_is_past, &(TraversalMesh){p, index}) % 2 == 1;
+    bool is_inside =
+        !solid_is_flat(solid) && mesh_count(solid, cursor, mesh_is_past, &(TraversalMesh){p, index}) % 2 == 1;
     cursor->is_inside = p->is_inside[index] = is_inside;
     traversal_next_face(p, index);
 }
@@ -359,8 +362,8 @@ static bool crossing_shows(const CsgTraversal *p, const Crossing *c, bool is_aft
         uint32_t others = inside - is_child_inside;
         bool is_all = node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
         bool judges_after = is_all ? !leaves : leaves;
-        if (judges_after == is_after && ((is_all && others != node->child_count - 1) ||
-                                         (node->op == NODE_MERGE && others != 0))) {
+        if (judges_after == is_after &&
+            ((is_all && others != node->child_count - 1) || (node->op == NODE_MERGE && others != 0))) {
             return false;
         }
         is_child_inside = node_is_inside(node, inside);
@@ -438,7 +441,9 @@ static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
         p->greatest_bound = 0.0;
         for (uint32_t i = 0; i < p->count; i++) {
             double bound = p->crossings[i].has_surface ? crossing_bound(p, &p->crossings[i]) : 0.0;
-            p->greatest_bound = bound <= p->greatest_bound ? p->greatest_bound : isnan(bound) ? (double)INFINITY : bound;
+            p->greatest_bound = bound <= p->greatest_bound ? p->greatest_bound
+                                : isnan(bound)             ? (double)INFINITY
+                                                           : bound;
         }
     }
     if (t * (t / (t + p->greatest_bound)) * (1.0 - 16.0 * 0x1p-53) > limit) {
@@ -547,6 +552,71 @@ static void traversal_reach(CsgTraversal *p, RayStart start, double until)
     p->reached = until;
     p->greatest_bound = -1.0;
     p->nearest_share = 0.0;
+}
+
+// ---- many parts that only clip, joined by one node
+
+// Whether the ray is inside of one of them all the way along some crossings.
+typedef struct Joined {
+    CsgTraversal *p;
+    double from, to;
+    bool is_inside, is_uncertain;
+} Joined;
+
+static bool joined_ask(void *client, uint32_t index)
+{
+    Joined *of = client;
+    CsgTraversal *p = of->p;
+    const Solid *solid = traversal_solid(p, index);
+    RayInterval interval; // it is convex
+    p->objects[index] = solid_ray(solid, p->ray);
+    if (solid_intervals(solid, &p->objects[index], LEFT_NONE, &interval) == 0) {
+        return false;
+    }
+    double enter_bound = end_bound(p, index, interval.enter, interval.enter_side);
+    double leave_bound = end_bound(p, index, interval.leave, interval.leave_side);
+    of->is_inside = interval.enter + enter_bound < of->from && interval.leave - leave_bound > of->to;
+    bool is_apart = interval.leave + leave_bound < of->from || interval.enter - enter_bound > of->to;
+    of->is_uncertain = of->is_uncertain || !(of->is_inside || is_apart);
+    return of->is_inside;
+}
+
+static void joined_set(CsgTraversal *p, bool is_inside)
+{
+    uint32_t at = p->csg->parts->joined;
+    if ((p->inside[at - p->csg->first_node] > 0) != is_inside) {
+        traversal_count(p, at, is_inside);
+    }
+}
+
+// Puts the node that joins them into its state where the ray has crossings, without asking more of them than one that
+// the ray is inside of. False where rounding may decide.
+static bool joined_settle(CsgTraversal *p, uint32_t begin, uint32_t end)
+{
+    Joined of = {p, (double)INFINITY, -(double)INFINITY, false, false};
+    bool is_bounded = true;
+    for (uint32_t i = begin; i < end; i++) {
+        Crossing *c = &p->crossings[i];
+        double bound = 2.0 * crossing_bound(p, c);
+        is_bounded = is_bounded && bound < c->t;
+        of.from = c->t - bound < of.from ? c->t - bound : of.from;
+        of.to = c->t + bound > of.to ? c->t + bound : of.to;
+    }
+    if (!is_bounded || !(of.from > 2.0 * p->start_error)) {
+        return false;
+    }
+    csg_parts_at(p->csg->parts, p->ray, of.from, of.to, joined_ask, &of);
+    joined_set(p, of.is_inside);
+    return of.is_inside || !of.is_uncertain;
+}
+
+// The crossings that were taken last are put back, and all leaves asked.
+static void joined_give_up(CsgTraversal *p, RayStart start, uint32_t end)
+{
+    joined_set(p, false);
+    p->count = end;
+    traversal_reach(p, start, (double)INFINITY);
+    traversal_order(p);
 }
 
 // ---- one node of convex leaves
@@ -705,7 +775,10 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
         return;
     }
     traversal_set_states(&p);
-    if (csg->parts) {
+    bool asks_joined = csg->parts && csg->parts->joined != NODE_NONE;
+    if (asks_joined) {
+        p.reached = (double)INFINITY;
+    } else if (csg->parts) {
         traversal_reach(&p, start, p.reached);
     }
     traversal_order(&p);
@@ -726,7 +799,10 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
             begin = heap_pop(&p);
             has_room = !has_meshes || traversal_refill(&p, &begin, &end);
         }
-        if (traversal_cross(&p, begin, end, first)) {
+        if (asks_joined && !joined_settle(&p, begin, end)) {
+            asks_joined = false;
+            joined_give_up(&p, start, end);
+        } else if (traversal_cross(&p, begin, end, first)) {
             return;
         }
     }

@@ -42,6 +42,22 @@ static bool build(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
     return done;
 }
 
+// The node that joins all leaves and nothing else, where these only clip and are simple.
+static uint32_t joined_by(const ShapeTable *table, const CsgTree *csg)
+{
+    const CsgParts *parts = csg->parts;
+    uint32_t at = table->solids[csg->first_solid + parts->leaves[0]].node;
+    const TreeNode *node = &table->nodes[at];
+    bool is_joined = parts->are_leaves_unseen && (node->op == NODE_UNION || node->op == NODE_MERGE) &&
+                     node->child_count == parts->leaf_count;
+    for (uint32_t i = 0; i < parts->leaf_count && is_joined; i++) {
+        const Solid *solid = &table->solids[csg->first_solid + parts->leaves[i]];
+        is_joined =
+            solid->node == at && solid_is_convex(solid) && !solid_is_flat(solid) && !(solid->flags & PART_INVERSE);
+    }
+    return is_joined ? at : NODE_NONE;
+}
+
 bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads,
                     const atomic_bool *cancel)
 {
@@ -63,6 +79,7 @@ bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surface
     parts->loose = numbers + count;
     parts->are_leaves_unseen = true;
     bool done = build(table, csg, surfaces, parts, pages.memory, threads, cancel);
+    parts->joined = done ? joined_by(table, csg) : NODE_NONE;
     pages_give(&pages);
     return done;
 }
@@ -95,5 +112,17 @@ void csg_parts_along(const CsgParts *parts, const Ray *ray, double until, uint64
     while (bvh_walk_next(&walk, limit, &leaf)) {
         uint32_t part = parts->leaves[bvh_leaf_first(leaf)];
         met[part / 64] |= UINT64_C(1) << part % 64;
+    }
+}
+
+void csg_parts_at(const CsgParts *parts, const Ray *ray, double from, double to, CsgPartFn ask, void *client)
+{
+    BvhWalk walk;
+    BvhChild leaf;
+    if (!bvh_walk_start(&walk, &parts->tree, ray_at(*ray, from), ray->direction)) {
+        return;
+    }
+    float limit = bvh_walk_limit(&walk, to - from);
+    while (bvh_walk_next(&walk, limit, &leaf) && !ask(client, parts->leaves[bvh_leaf_first(leaf)])) {
     }
 }

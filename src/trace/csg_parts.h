@@ -20,6 +20,7 @@ struct CsgParts {
     uint32_t *loose, *leaves; // numbers within the composite: in order, and in the tree's; in one block, owned
     uint32_t loose_count, leaf_count;
     bool are_leaves_unseen; // they only clip
+    uint32_t joined; // the node of which they, convex and unseen, are all children, and which joins them; NODE_NONE
 };
 
 // Sorts the parts of a composite, whose surfaces' boxes are given by solid. Leaves it without a tree where that is not
@@ -31,5 +32,10 @@ size_t csg_parts_bytes(const CsgTree *csg);
 
 // Sets a bit, of solid_count in all, for each of the leaves whose box the ray may enter up to a place.
 void csg_parts_along(const CsgParts *parts, const Ray *ray, double until, uint64_t *met);
+
+// Calls a function with the number of each leaf whose box the ray may be in from one place to another, until that is
+// true.
+typedef bool (*CsgPartFn)(void *client, uint32_t part);
+void csg_parts_at(const CsgParts *parts, const Ray *ray, double from, double to, CsgPartFn ask, void *client);
 
 #endif

@@ -270,6 +270,7 @@ def judge_clusters(tap, folder):
 
 # Composites of many parts: what stands before and behind the parts.
 MANY_PARTS = {"a box without a union of spheres": ("difference { box { -1, 1 } union {", "} }"), "a merge of spheres": ("merge {", "}"),
+              "a sphere that a union of spheres clips": ("sphere { 0, 1 clipped_by { union {", "} } }"),
               "an intersection with a union of spheres": ("intersection { box { -1, 1 } union {", "} }")}
 PARTS_COUNTS, PARTS_BAR = (200, 2000), 2.0
 

@@ -1,8 +1,8 @@
 // Storage of texts and arrays that variables own.
 //
 // Small blocks come from the program arena and return to lists by size; large ones are the system's. Each block has a
-// header before it with the number of its storing. Built with AddressSanitizer, what is given back is poisoned and
-// everything that is retired is looked at again at each step. Knows nothing of names.
+// header before it with the number of its storing. Built with AddressSanitizer, everything that is retired is looked at
+// at each step, and what is given back is poisoned and not taken again. Knows nothing of names.
 //
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>
@@ -157,8 +157,10 @@ static void free_block(Eval *ev, KeptBlock *block)
         return;
     }
     HIDE(block + 1, size_of(block) - sizeof *block);
-    block->next = ev->kept.free[block->class];
-    ev->kept.free[block->class] = block;
+    if (!IS_WATCHED) {
+        block->next = ev->kept.free[block->class];
+        ev->kept.free[block->class] = block;
+    }
 }
 
 static KeptBlock *block_of(const Value *value)
