@@ -138,7 +138,7 @@ def judge_clip(tap, folder):
     if not all(counts):
         tap.skip("clips", "callgrind does not run rtlang")
     else:
-        tap.ok(counts[0] == counts[1] < counts[2], f"a sphere takes {counts[0]} instructions, {counts[1]} in a box that "
+        tap.ok(counts[1] <= counts[0] < counts[2], f"a sphere takes {counts[0]} instructions, {counts[1]} in a box that "
                f"holds it, {counts[2]} in one that cuts it")
 
 
