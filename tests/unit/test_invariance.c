@@ -40,8 +40,9 @@ static int exponent_at(Random *random, size_t scene, size_t i, int most)
     return i == 0 ? (scene % 2 ? most : -most) : (int)(random_bits(random) % (unsigned)(2 * most + 1)) - most;
 }
 
-// Scenes that say a length which is not scaled, the depth of their bumps, as in POV-Ray: other pictures at each scale.
-static const char *const exceptions[] = {"no_bump_scale"};
+// Scenes that say a length which is not scaled, as in POV-Ray: the depth of their bumps, and the turbulence of irid, whose
+// noise lies in the scene and not in a texture. Other pictures at each scale.
+static const char *const exceptions[] = {"no_bump_scale", "finish_irid"};
 // Surfaces at whole numbers of a pattern that steps there: powers of two keep them, what rounds does not.
 static const char *const steps[] = {"quilted_whole_numbers"};
 

@@ -53,6 +53,18 @@ static bool compound_is_plain(const Scene *scene, const Compound *compound)
            texture->pigment.pattern == RECORD_NONE && texture->normal == RECORD_NONE;
 }
 
+// Whether the part, or a face of it, has the material.
+static bool part_shows(const Scene *scene, const Part *part, MaterialIndex material)
+{
+    bool does = part->material == material;
+    if (part->kind == PART_MESH || part->kind == PART_MESH_SOLID) {
+        for (uint32_t i = 0; i < part->mesh.mesh->texture_count && !does; i++) {
+            does = scene->face_materials.items[part->mesh.materials + i] == material;
+        }
+    }
+    return does;
+}
+
 // Where the first shape of a compound material stands.
 static uint64_t compound_source(const Scene *scene, size_t compound)
 {
@@ -68,7 +80,7 @@ static uint64_t compound_source(const Scene *scene, size_t compound)
         }
     }
     for (size_t i = 0; i < scene->parts.count; i++) {
-        if (scene->parts.items[i].material == material) {
+        if (part_shows(scene, &scene->parts.items[i], material)) {
             return scene->parts.items[i].source;
         }
     }
