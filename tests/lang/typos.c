@@ -31,10 +31,11 @@ static const char *keys_beside(char key)
         char key;
         const char *beside;
     } keys[] = {
-        {'q', "wa"},    {'w', "qeas"},  {'e', "wrsd"},  {'r', "etdf"}, {'t', "ryfg"}, {'y', "tugh"}, {'u', "yihj"},
-        {'i', "uojk"},  {'o', "ipkl"},  {'p', "ol"},    {'a', "qwsz"}, {'s', "adwezx"}, {'d', "sferxc"},
-        {'f', "dgrtcv"}, {'g', "fhtyvb"}, {'h', "gjyubn"}, {'j', "hkuinm"}, {'k', "jliom"}, {'l', "kop"},
-        {'z', "xas"},   {'x', "zcsd"},  {'c', "xvdf"},  {'v', "cbfg"}, {'b', "vngh"}, {'n', "bmhj"}, {'m', "njk"},
+        {'q', "wa"},     {'w', "qeas"},   {'e', "wrsd"},   {'r', "etdf"},   {'t', "ryfg"},   {'y', "tugh"},
+        {'u', "yihj"},   {'i', "uojk"},   {'o', "ipkl"},   {'p', "ol"},     {'a', "qwsz"},   {'s', "adwezx"},
+        {'d', "sferxc"}, {'f', "dgrtcv"}, {'g', "fhtyvb"}, {'h', "gjyubn"}, {'j', "hkuinm"}, {'k', "jliom"},
+        {'l', "kop"},    {'z', "xas"},    {'x', "zcsd"},   {'c', "xvdf"},   {'v', "cbfg"},   {'b', "vngh"},
+        {'n', "bmhj"},   {'m', "njk"},
     };
     for (size_t i = 0; i < RT_COUNT_OF(keys); i++) {
         if (keys[i].key == key) {
@@ -91,7 +92,7 @@ static void count(const InternTable *names, Tally *tally, TypoKind kind, const P
     if (!is_typo(names, wrong, word)) {
         return;
     }
-    char before[256], wanted[WORD_SIZE + 1];
+    char before[320], wanted[WORD_SIZE + 1];
     snprintf(before, sizeof before, "%s%s", place->before, place->mark);
     snprintf(wanted, sizeof wanted, "%s%s", place->mark, word);
     tally->all[kind]++;
@@ -169,7 +170,8 @@ static void try_kinds(const InternTable *names, Tally *sums)
     Tally tally = {0};
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaBlock *schema = schema_kind((SchemaKind)kind);
-        if (kind == KIND_REFLECTION || kind == KIND_CLIPPED_BY || kind == KIND_BOUNDED_BY) {
+        if (kind == KIND_REFLECTION || kind == KIND_CLIPPED_BY || kind == KIND_BOUNDED_BY || kind == KIND_WARP ||
+            kind == KIND_IRID || kind == KIND_BLOB_BALL || kind == KIND_BLOB_ROD) {
             continue; // properties of other blocks
         }
         Place place = {schema->is_declarable ? "#declare A = " : "", "", " { }"};
@@ -181,22 +183,52 @@ static void try_kinds(const InternTable *names, Tally *sums)
 static void try_properties(const InternTable *names, Tally *sums)
 {
     static const char *const arguments[KIND_COUNT] = {
-        [KIND_SPHERE] = "0, 1",   [KIND_PLANE] = "y, 1",         [KIND_LIGHT_SOURCE] = "0, 1",
-        [KIND_OBJECT] = "sphere { 0, 1 }", [KIND_BACKGROUND] = "rgb 1", [KIND_REFLECTION] = "1",
-        [KIND_UNION] = "sphere { 0, 1 } sphere { 0, 1 }", [KIND_MERGE] = "sphere { 0, 1 } sphere { 0, 1 }",
-        [KIND_INTERSECTION] = "sphere { 0, 1 } sphere { 0, 1 }", [KIND_DIFFERENCE] = "sphere { 0, 1 } sphere { 0, 1 }",
-        [KIND_BOX] = "0, 1",      [KIND_CYLINDER] = "0, y, 1",   [KIND_CONE] = "0, 1, y, 0",
-        [KIND_DISC] = "0, y, 1",  [KIND_TRIANGLE] = "0, x, y",   [KIND_SMOOTH_TRIANGLE] = "0, z, x, z, y, z",
+        [KIND_SPHERE] = "0, 1",
+        [KIND_PLANE] = "y, 1",
+        [KIND_LIGHT_SOURCE] = "0, 1",
+        [KIND_OBJECT] = "sphere { 0, 1 }",
+        [KIND_BACKGROUND] = "rgb 1",
+        [KIND_REFLECTION] = "1",
+        [KIND_UNION] = "sphere { 0, 1 } sphere { 0, 1 }",
+        [KIND_MERGE] = "sphere { 0, 1 } sphere { 0, 1 }",
+        [KIND_INTERSECTION] = "sphere { 0, 1 } sphere { 0, 1 }",
+        [KIND_DIFFERENCE] = "sphere { 0, 1 } sphere { 0, 1 }",
+        [KIND_BOX] = "0, 1",
+        [KIND_CYLINDER] = "0, y, 1",
+        [KIND_CONE] = "0, 1, y, 0",
+        [KIND_DISC] = "0, y, 1",
+        [KIND_TRIANGLE] = "0, x, y",
+        [KIND_SMOOTH_TRIANGLE] = "0, z, x, z, y, z",
+        [KIND_TORUS] = "2, 1",
+        [KIND_QUADRIC] = "1, 0, 0, -1",
+        [KIND_BLOB] = "threshold 0.5 sphere { 0, 1, 1 }",
+        [KIND_CUBIC] = "<1, 0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,-1>",
+        [KIND_QUARTIC] = "<1, 0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,-1>",
+        [KIND_POLY] = "2, <1, 0, 0, 0, 1, 0, 0, 1, 0, -1>",
+        [KIND_PRISM] = "linear_spline 0, 1, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
+        [KIND_POLYGON] = "4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
+        [KIND_MESH] = "triangle { 0, x, y }",
+        [KIND_MESH2] = "vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> }",
+        [KIND_BLOB_BALL] = "0, 1, 1",
+        [KIND_BLOB_ROD] = "0, x, 1, 1",
+    };
+    static const char *const arounds[KIND_COUNT] = {
+        // blocks that stand in others only
+        [KIND_REFLECTION] = "finish {", [KIND_PATTERN] = "function {", [KIND_IRID] = "finish {",
+        [KIND_WARP] = "pigment { bozo", [KIND_BLOB_BALL] = "blob {",   [KIND_BLOB_ROD] = "blob {",
     };
     Tally tally = {0};
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaBlock *schema = schema_kind((SchemaKind)kind);
         const SchemaProperty *property;
-        const char *around = kind == KIND_REFLECTION ? "finish {" : kind == KIND_PATTERN ? "function {" : "";
+        const char *around = arounds[kind] != NULL ? arounds[kind] : "";
         bool is_inner = around[0] != '\0';
-        char before[128];
-        snprintf(before, sizeof before, "%s%s %s { %s ", is_inner || schema->is_declarable ? "#declare A = " : "", around,
-                 schema->word, arguments[kind] != NULL ? arguments[kind] : "");
+        char before[256];
+        if (kind == KIND_TEXT) {
+            continue; // it wants a font, and has no properties but those of all objects
+        }
+        snprintf(before, sizeof before, "%s%s %s { %s ", is_inner || schema->is_declarable ? "#declare A = " : "",
+                 around, schema->word, arguments[kind] != NULL ? arguments[kind] : "");
         for (size_t i = 0; (property = schema_property((SchemaKind)kind, i)) != NULL; i++) {
             Place place = {before, "", property->type == TYPE_BLOCK ? " { } }" : is_inner ? " 1 } }" : " 1 }"};
             try_word(names, &tally, &place, property->word);
