@@ -33,12 +33,6 @@ static const Family families[] = {
     {"a short direction", 5, 1.0, 3.0, 1e-12, true, true, false},
 };
 
-static Vec3 random_place(Random *random, double size)
-{
-    return vec3(random_between(random, -size, size), random_between(random, -size, size),
-                random_between(random, -size, size));
-}
-
 // The field less the threshold.
 static long double field_at(const double *list, const Ray *ray, long double t)
 {
@@ -68,13 +62,13 @@ static const double *random_blob(Random *random, const Family *family, double th
     BlobComponent components[COMPONENTS_MOST];
     uint32_t count = 0;
     while (count < family->components) {
-        Vec3 base = random_place(random, family->size), cap = random_place(random, family->size);
+        Vec3 base = random_vec3(random, -family->size, family->size);
+        Vec3 cap = random_vec3(random, -family->size, family->size);
         bool is_rod = family->has_rods && random_below(random, 2);
         double strength = random_between(random, 0.5, 1.5), radius = family->size * random_between(random, 0.4, 1.0);
+        Vec3 scales = random_vec3(random, 0.5, 2.0);
         Transform moved =
-            random_below(random, 3)
-                ? transform_identity()
-                : transform_scale(vec3(random_between(random, 0.5, 2.0), 1.0, random_between(random, 0.5, 2.0)));
+            random_below(random, 3) ? transform_identity() : transform_scale(vec3(scales.x, 1.0, scales.z));
         if (is_rod && random_below(random, 3) == 0) {
             cap = vec3_add_scaled(base, family->size, axes[random_below(random, 3)]);
         }
@@ -143,7 +137,7 @@ static void test_family(const Family *family, uint64_t seed)
     static double list[BLOB_HEAD + (2 * BLOB_NODE + BLOB_COMPONENT) * COMPONENTS_MOST];
     int rays = getenv("CHECK_LONG") ? 20000 : 100;
     for (int i = 0; i < rays; i++) {
-        Vec3 d = random_direction(&random), on = random_place(&random, family->size);
+        Vec3 d = random_direction(&random), on = random_vec3(&random, -family->size, family->size);
         double share = random_between(&random, 0.2, 0.7);
         const double *made = random_blob(&random, family, share, list);
         if (family->touches) {
@@ -154,8 +148,8 @@ static void test_family(const Family *family, uint64_t seed)
             }
             Vec3 n = blob_normal(made, on);
             (void)there;
-            list[0] =
-                field * (1.0 + pow(10.0, -(double)random_below(&random, 16)) * random_between(&random, -1.0, 1.0));
+            double change = pow(10.0, -(double)random_below(&random, 16));
+            list[0] = field * (1.0 + change * random_between(&random, -1.0, 1.0));
             d = vec3_normalize(vec3_add_scaled(d, -vec3_dot(d, n), n));
         }
         Ray ray = {vec3_add_scaled(on, -family->from * family->size, d), vec3_scale(family->length, d)};
@@ -178,7 +172,7 @@ static void test_from_surface(const Family *family, uint64_t seed)
     int rays = 0, wrong = 0;
     for (int i = 0; i < 2000; i++) {
         const double *made = random_blob(&random, family, 0.4, list);
-        Vec3 d = random_direction(&random), on = random_place(&random, family->size);
+        Vec3 d = random_direction(&random), on = random_vec3(&random, -family->size, family->size);
         Ray ray = {vec3_add_scaled(on, -4.0 * family->size, d), d};
         unsigned count = blob_intervals(made, false, &ray, LEFT_NONE, whole);
         if (count == 0) {

@@ -132,8 +132,10 @@ static Vec3 eye_of(Random *random, const Mesh *mesh)
         return vec3(0.0, 0.0, 0.0);
     case 1:
         return vec3_scale(0.5, aim_of(random, mesh));
-    default:
-        return vec3_scale(random_between(random, 0.0, 0.6), aim_of(random, mesh));
+    default: {
+        double share = random_between(random, 0.0, 0.6);
+        return vec3_scale(share, aim_of(random, mesh));
+    }
     }
 }
 
@@ -177,7 +179,8 @@ static void check_closed(const char *name, Mesh *mesh, Transform to_world, uint6
         missed += !is_met;
         apart += is_met != geometry_occluded(g, TRACE_ALL_FEATURES, ray, RAY_START_FREE, (double)INFINITY);
         if (i % 64 == 0) {
-            Ray own = {eye_of(&random, mesh), vec3_sub(aim_of(&random, mesh), vec3(0.01, 0.02, 0.0))};
+            Vec3 from = eye_of(&random, mesh);
+            Ray own = {from, vec3_sub(aim_of(&random, mesh), vec3(0.01, 0.02, 0.0))};
             unsigned before = count_crossings(mesh, &own, false), after = count_crossings(mesh, &own, true);
             uneven += before % 2 != 1 || after % 2 != 1;
         }

@@ -202,12 +202,6 @@ static const Family families[] = {
     {"a short direction", 4, 3.0, 0.0, 1.0, 1e-12, false},
 };
 
-static Vec3 random_place(Random *random, double size)
-{
-    return vec3(random_between(random, -size, size), random_between(random, -size, size),
-                random_between(random, -size, size));
-}
-
 // Random coefficients, some of them 0; made such that the surface goes through a place of about its size.
 static Surface random_surface(Random *random, unsigned order, double size, Vec3 on)
 {
@@ -233,7 +227,7 @@ static void test_family(const Family *family, uint64_t seed)
     Outcome outcome = {0};
     int rays = getenv("CHECK_LONG") ? 1000000 / (int)(family->order * family->order) : 60;
     for (int i = 0; i < rays; i++) {
-        Vec3 on = random_place(&random, family->size), d = random_direction(&random);
+        Vec3 on = random_vec3(&random, -family->size, family->size), d = random_direction(&random);
         Surface surface = random_surface(&random, family->order, family->size, on);
         if (family->is_along_axis) {
             unsigned axis = random_below(&random, 3);
@@ -251,7 +245,8 @@ static void test_family(const Family *family, uint64_t seed)
            "%s: as many crossings as there are (%d of %d are not, %d "
            "are within 26 digits)",
            family->name, outcome.wrong, outcome.rays, outcome.undecided);
-    tap_ok(outcome.worst < 512.0, "%s: within 512 u (worst %.2f u of %d)", family->name, outcome.worst, outcome.crossings);
+    tap_ok(outcome.worst < 512.0, "%s: within 512 u (worst %.2f u of %d)", family->name, outcome.worst,
+           outcome.crossings);
 }
 
 // (x - a)^m (x + b)… + s y: on the ray along x at y, with y near 0, roots of multiplicity m come apart or go.
@@ -276,8 +271,8 @@ static void test_multiple(unsigned multiplicity, unsigned order, uint64_t seed)
         terms[polynomial_count(order) - order - 2] = 1.0; // of y
         surface.list[0] = order;
         polynomial_complete(surface.list);
-        double aside =
-            i % 3 == 0 ? 0.0 : random_between(&random, -1.0, 1.0) * pow(10.0, -(double)random_below(&random, 30));
+        double share = random_between(&random, -1.0, 1.0);
+        double aside = i % 3 == 0 ? 0.0 : share * pow(10.0, -(double)random_below(&random, 30));
         Ray ray = {vec3(-10.0, aside, 0.0), vec3(1.0, 0.0, 0.0)};
         check(&surface, &ray, &outcome);
     }
@@ -294,7 +289,7 @@ static void test_from_surface(unsigned order, double size, uint64_t seed)
     Random random = {seed};
     int rays = 0, wrong = 0, met_again = 0;
     for (int i = 0; i < 2000; i++) {
-        Vec3 on = random_place(&random, size), d = random_direction(&random);
+        Vec3 on = random_vec3(&random, -size, size), d = random_direction(&random);
         Surface surface = random_surface(&random, order, size, on);
         Vec3 n = polynomial_normal(surface.list, on);
         if (i % 2) { // grazing

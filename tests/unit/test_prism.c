@@ -41,7 +41,8 @@ static void random_outline(Random *random, unsigned degree, bool is_conic, doubl
     outline_begin(outline->items, &count, degree, is_conic);
     for (unsigned curve = 0; curve < curves; curve++) {
         unsigned pieces = 2 + (unsigned)(random_bits(random) % 8);
-        double start[2] = {unit * whole(random, 9), unit * whole(random, 9)}, piece[8] = {start[0], start[1]};
+        double u = unit * whole(random, 9);
+        double start[2] = {u, unit * whole(random, 9)}, piece[8] = {start[0], start[1]};
         for (unsigned i = 0; i < pieces; i++) {
             for (unsigned k = 2; k < 2 * (degree + 1); k++) {
                 bool is_end = k >= 2 * degree && i + 1 == pieces;
@@ -58,12 +59,21 @@ static void random_outline(Random *random, unsigned degree, bool is_conic, doubl
     outline->list = (Numbers){outline->items, count};
 }
 
+static Vec3 whole_vec3(Random *random, int most)
+{
+    Vec3 v;
+    v.x = whole(random, most);
+    v.y = whole(random, most);
+    v.z = whole(random, most);
+    return v;
+}
+
 static Ray random_ray(Random *random, double unit)
 {
     Ray ray;
     do {
-        ray.origin = vec3(unit * whole(random, 12), unit * whole(random, 12), unit * whole(random, 12));
-        ray.direction = vec3(whole(random, 6), whole(random, 6), whole(random, 6));
+        ray.origin = vec3_scale(unit, whole_vec3(random, 12));
+        ray.direction = whole_vec3(random, 6);
     } while (ray.direction.x == 0.0 && ray.direction.z == 0.0);
     return ray;
 }
@@ -332,7 +342,9 @@ static void test_points(void)
         Outline outline;
         RayInterval intervals[CROSSINGS_MOST];
         random_outline(&random, i % 2 ? 3 : 1, false, 1.0, &outline);
-        OutlinePoint p = {random_between(&random, -10.0, 10.0), random_between(&random, -10.0, 10.0)};
+        OutlinePoint p;
+        p.u = random_between(&random, -10.0, 10.0);
+        p.v = random_between(&random, -10.0, 10.0);
         Ray along = {vec3(p.u, 0.5, p.v), vec3(0.0, 0.0, 1.0)};
         unsigned count = intervals_of(&outline.list, 0.0, 1.0, &along, LEFT_NONE, intervals);
         differ += outline_holds(&outline.list, p) != says_inside(intervals, count, 0.0);
