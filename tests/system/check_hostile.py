@@ -74,6 +74,8 @@ SCENES = {
                               forever("#declare C = strlen(S);"),
     "a file of a name of megabytes": '#declare S = "ab"; #for (K, 1, 21) #declare S = concat(S, S); #end\n' +
                                      forever("#declare C = file_exists(S);"),
+    "a text that is copied": '#declare S = "ab"; #for (K, 1, 20) #declare S = concat(S, S); #end\n' +
+                             forever("#declare C = S;"),
     "a string in capitals": '#declare S = "ab"; #for (K, 1, 20) #declare S = concat(S, S); #end\n' +
                             forever("#declare C = strupr(S);"),
     "a number of a million digits": '#debug str(1, 0, 1000000)\n' * 3,

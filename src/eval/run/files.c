@@ -158,7 +158,8 @@ static char *beginning_of(char *path, size_t *length, bool *is_link)
 }
 
 // Where a path leads, whether a file is there or not: the real path of the longest beginning that is there, and the
-// rest as it is written. Links to nowhere are followed, too. The caller frees it; NULL: out of memory, or no end of links.
+// rest as it is written. Links to nowhere are followed, too. The caller frees it; NULL: out of memory, or no end of
+// links.
 static char *place_of(const char *path)
 {
     char *name = strdup(path);
@@ -205,8 +206,8 @@ static void folder_to_allow(const char *path, const char *real, char *folder, si
     free(place);
 }
 
-// Whether a file is one that a standard folder names, whatever that leads to: the packages that install POV-Ray's files
-// put its fonts elsewhere, and links to them there. Such a folder is no stranger's.
+// Whether a file is one that a standard folder names, whatever that leads to: the packages that install POV-Ray's fonts
+// put them elsewhere, and links to them there.
 static bool is_standard(const Eval *ev, const char *path)
 {
     const char *folder, *slash = strrchr(path, '/');
@@ -239,17 +240,18 @@ static bool fault_outside(Eval *ev, const char *path, const char *real, Span spa
 {
     char folder[PATH_MAX];
     if (eval_report(ev, DIAG_E0508, span, "`%s` lies outside the folders that this scene may read", path)) {
-        diag_note(ev->options.diags, SPAN_NONE, "a scene reads below its own folder, the `-I` folders, those of the "
-                                                "standard include files and what `--allow-read` names, all links "
-                                                "resolved");
+        diag_note(ev->options.diags, SPAN_NONE,
+                  "a scene reads below its own folder, the `-I` folders, those of the "
+                  "standard include files and what `--allow-read` names, all links "
+                  "resolved");
         folder_to_allow(path, real, folder, sizeof folder);
         diag_suggest(ev->options.diags, "pass `--allow-read %s` to allow it", folder);
     }
     return false;
 }
 
-// Reports a name that leads to no file, and out of the folders that may be read. A name that stays in the current folder
-// is more likely mistyped.
+// Reports a name that leads to no file, and out of the folders that may be read. A name that stays in the current
+// folder is more likely mistyped.
 static bool is_outside(Eval *ev, const char *name, Span span)
 {
     char *place = place_of(name), *current = realpath(".", NULL);
@@ -262,7 +264,7 @@ static bool is_outside(Eval *ev, const char *name, Span span)
 
 // A file that exists. The answer for a path holds until another is asked for, so that a file that is included a
 // million times is looked up once.
-static bool may_read(Eval *ev, const char *path, Span span)
+static bool may_read(Eval *ev, const char *path, FileUse use, Span span)
 {
     FileState *files = ev->files;
     if (files->checked.length > 0 && strcmp(text_get(&files->checked), path) == 0) {
@@ -273,11 +275,12 @@ static bool may_read(Eval *ev, const char *path, Span span)
         return errno == ENOMEM ? eval_no_memory(ev, span)
                                : eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: %s", path, strerror(errno));
     }
-    bool is_below = is_allowed(ev, real) || is_standard(ev, path) || fault_outside(ev, path, real, span);
+    bool is_below =
+        is_allowed(ev, real) || (use == FILE_FONT && is_standard(ev, path)) || fault_outside(ev, path, real, span);
     text_clear(&files->checked);
     text_clear(&files->real);
     if (is_below) {
-        text_append(&files->checked, path);
+        text_append(&files->checked, use == FILE_FONT ? "" : path); // what a font may be, others may not
         text_append(&files->real, real);
     }
     free(real);
@@ -345,8 +348,7 @@ static bool find_with(const Eval *ev, Search *search, const char *ending)
 
 static bool find(const Eval *ev, Search *search, const char *ending)
 {
-    return find_with(ev, search, "") ||
-           (ending != NULL && !has_ending(search->name) && find_with(ev, search, ending));
+    return find_with(ev, search, "") || (ending != NULL && !has_ending(search->name) && find_with(ev, search, ending));
 }
 
 // Looking for a file and opening it takes as long as so many bytes of strings: 200 steps, 15 microseconds.
@@ -374,7 +376,7 @@ bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there)
     text_init(&search.path);
     *is_there = find(ev, &search, NULL);
     bool fine = search_failed(ev, &search) ? eval_no_memory(ev, span)
-                : *is_there                ? may_read(ev, text_get(&search.path), span)
+                : *is_there                ? may_read(ev, text_get(&search.path), FILE_INCLUDE, span)
                                            : !is_outside(ev, search.name, span);
     text_fini(&search.path);
     return fine;
@@ -466,13 +468,20 @@ static void report_missing(Eval *ev, Search *search, FileUse use, const AstNode 
 static void report_result(Eval *ev, SourceResult result, const char *path, FileUse use, int error_number, Span span)
 {
     switch (result) {
-    case SOURCE_OK: break;
-    case SOURCE_CANCELLED: ev->stop = true; break;
-    case SOURCE_NOT_FOUND: eval_fault(ev, DIAG_E0501, span, "%s `%s` not found", uses[use].what, path); break;
+    case SOURCE_OK:
+        break;
+    case SOURCE_CANCELLED:
+        ev->stop = true;
+        break;
+    case SOURCE_NOT_FOUND:
+        eval_fault(ev, DIAG_E0501, span, "%s `%s` not found", uses[use].what, path);
+        break;
     case SOURCE_NOT_READABLE:
         eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: %s", path, strerror(error_number));
         break;
-    case SOURCE_IS_DIRECTORY: eval_fault(ev, DIAG_E0503, span, "`%s` is a directory, not a file", path); break;
+    case SOURCE_IS_DIRECTORY:
+        eval_fault(ev, DIAG_E0503, span, "`%s` is a directory, not a file", path);
+        break;
     case SOURCE_NOT_A_FILE:
         eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: it is a pipe or a device, not a file", path);
         break;
@@ -484,7 +493,9 @@ static void report_result(Eval *ev, SourceResult result, const char *path, FileU
         ev->stop = true;
         break;
     case SOURCE_TOO_MUCH: // files are not kept, but for those that the kernel makes while they are read
-    case SOURCE_NO_MEMORY: eval_no_memory(ev, span); break;
+    case SOURCE_NO_MEMORY:
+        eval_no_memory(ev, span);
+        break;
     }
 }
 
@@ -514,7 +525,7 @@ bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
     } else if (!is_found) {
         report_missing(ev, &search, use, name_node);
     } else {
-        is_found = may_read(ev, text_get(&search.path), name_node->span) &&
+        is_found = may_read(ev, text_get(&search.path), use, name_node->span) &&
                    open_found(ev, text_get(&search.path), use, name_node->span, source);
         ev->include_is_missing = ev->include_is_missing || (!is_found && use == FILE_INCLUDE);
     }
@@ -546,7 +557,7 @@ const char *file_find(Eval *ev, const AstNode *name_node, const char *text, File
         eval_no_memory(ev, name_node->span);
     } else if (!is_found) {
         report_missing(ev, &search, use, name_node);
-    } else if (may_read(ev, text_get(&search.path), name_node->span)) {
+    } else if (may_read(ev, text_get(&search.path), use, name_node->span)) {
         *real = keep_text(ev, &ev->files->real);
         path = *real ? keep_text(ev, &search.path) : NULL;
         if (path == NULL) {

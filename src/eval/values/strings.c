@@ -314,7 +314,7 @@ bool builtin_substr(Eval *ev, const AstNode *node, Value *value)
 static bool change_case(Eval *ev, const AstNode *node, Value *value, char first, char last, int change)
 {
     Value string;
-    if (!ask_string(ev, node->a, &string)) {
+    if (!ask_string(ev, node->a, &string) || !eval_work(ev, CHARACTER_WORK * string.length, node->span)) {
         return false;
     }
     char *copy = arena_copy_text(&ev->scratch, string.text, string.length);

@@ -148,6 +148,9 @@ bool value_store(Eval *ev, const Value *value, Arena *arena, Span span, Value *c
             copy->v[i] = (float)value->v[i];
         }
     } else if (value->kind == VALUE_STRING) {
+        if (!eval_work(ev, value->length, span)) {
+            return false;
+        }
         copy->text = store_text(ev, value, arena);
         if (copy->text == NULL) {
             return eval_no_memory(ev, span);
