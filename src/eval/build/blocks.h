@@ -300,7 +300,7 @@ typedef struct CornerBlend {
 bool mesh_textures_blend(const TextureDesc *const corners[3]);
 void mesh_blend(const MeshDesc *mesh, const MeshCorners *corners, CornerBlend *blend);
 
-// mesh.c
+// mesh.c and mesh2.c
 bool mesh_body(Block *block) RT_MUST_CHECK;
 bool mesh2_body(Block *block) RT_MUST_CHECK;
 bool mesh_close(Block *block) RT_MUST_CHECK;
