@@ -249,7 +249,9 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
         .tracer = &probe_tracer,
         .painter = &painter,
         .load_pictures = load_pictures,
-        .statement = !session->frames.is_expected ? NULL : session->loaded ? session_note_slice : session_note_statement,
+        .statement = !session->frames.is_expected ? NULL
+                     : session->loaded            ? session_note_slice
+                                                  : session_note_statement,
         .declared = &session->names_declared,
         .cancel = &session->cancel,
         .message = forward_message,
@@ -466,8 +468,11 @@ static rt_status render_scene(rt_session *session, void *argument)
     session->threads = threads;
     bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
                     session->precision == RT_PRECISION_DOUBLE;
-    GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL,
-                                .rays = session_camera_rays(session), .kept = is_spent ? NULL : &session->kept,
+    GeometryOptions geometry = {.threads = threads,
+                                .isa = session->isa,
+                                .spent = is_spent ? &session->scene : NULL,
+                                .rays = session_camera_rays(session),
+                                .kept = is_spent ? NULL : &session->kept,
                                 .cancel = &session->cancel};
     OverlayOptions overlay = session->overlay;
     overlay_find_reach(&overlay, &session->scene);

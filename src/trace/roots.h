@@ -32,7 +32,7 @@ struct Polynomial {
     void (*refine)(Polynomial *polynomial, const void *owner);
     const void *owner;
     bool has_levels; // derivatives are in terms[]
-    bool is_exact; // terms[] are the nearest to `exact` then
+    bool is_exact;   // terms[] are the nearest to `exact` then
     DoubleWord exact[ROOTS_DEGREE_MOST + 1];
 };
 

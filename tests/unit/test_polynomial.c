@@ -251,7 +251,8 @@ static void test_family(const Family *family, uint64_t seed)
            "%s: as many crossings as there are (%d of %d are not, %d "
            "are within 26 digits)",
            family->name, outcome.wrong, outcome.rays, outcome.undecided);
-    tap_ok(outcome.worst < 512.0, "%s: within 512 u (worst %.2f u of %d)", family->name, outcome.worst, outcome.crossings);
+    tap_ok(outcome.worst < 512.0, "%s: within 512 u (worst %.2f u of %d)", family->name, outcome.worst,
+           outcome.crossings);
 }
 
 // (x - a)^m (x + b)… + s y: on the ray along x at y, with y near 0, roots of multiplicity m come apart or go.
