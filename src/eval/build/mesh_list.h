@@ -25,15 +25,8 @@ typedef struct MeshList {
 
 // Begins a list, and reads how many items it says it has: 1 to MESH_FACES_MOST.
 bool mesh_list_open(MeshList *list, Block *block, const AstNode *node) RT_MUST_CHECK;
-// The next item, of which `number` are read, as three numbers: those of a vector, or one number that stands for all.
-// Missing coordinates are 0. `least`: 2 for lists whose vectors have two coordinates, which set v[0] and v[1] only;
-// otherwise 3.
-RT_ALWAYS_INLINE bool mesh_list_next(MeshList *list, uint32_t number, unsigned least, double v[3]);
-// The same where no item of a pack is left.
+// What mesh_list_next and mesh_list_number say below, where no item of a pack is left.
 bool mesh_list_next_item(MeshList *list, uint32_t number, unsigned least, double v[3]);
-// A number that may follow a vector. *is_there: whether it does; then *number is set.
-RT_ALWAYS_INLINE bool mesh_list_number(MeshList *list, double *number, bool *is_there);
-// The same where no item of a pack is left.
 bool mesh_list_number_item(MeshList *list, double *number, bool *is_there);
 // Reports that the list has only `number` items; false.
 bool mesh_list_ends_early(MeshList *list, uint32_t number);
@@ -42,6 +35,8 @@ Span mesh_list_span(const MeshList *list);
 // Ends a list. is_fine: all went well so far; then items beyond the count are a fault. Returns whether all went well.
 bool mesh_list_close(MeshList *list, bool is_fine) RT_MUST_CHECK;
 
+// The next item, of which `number` are read, as three numbers: those of a vector, or one number that stands for all.
+// Missing coordinates are 0. `least`: how many coordinates a vector has at least; 2: v[2] means nothing, else 3.
 RT_ALWAYS_INLINE bool mesh_list_next(MeshList *list, uint32_t number, unsigned least, double v[3])
 {
     if (RT_UNLIKELY(!list->packed || list->at == list->packed->count)) {
@@ -56,6 +51,7 @@ RT_ALWAYS_INLINE bool mesh_list_next(MeshList *list, uint32_t number, unsigned l
     return true;
 }
 
+// A number that may follow a vector. *is_there: whether it does; then *number is set.
 RT_ALWAYS_INLINE bool mesh_list_number(MeshList *list, double *number, bool *is_there)
 {
     *is_there = false;
