@@ -13,7 +13,7 @@
 typedef enum FormulaOp {
     FORMULA_NUMBER, // puts `number`
     FORMULA_SLOT,   // puts argument `which`
-    // Of two.
+    // Of two; comparisons, `and` and `or` give 1 or 0.
     FORMULA_ADD,
     FORMULA_SUB,
     FORMULA_MUL,

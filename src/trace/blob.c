@@ -289,7 +289,7 @@ typedef struct Found {
     RayInterval *intervals, open;
     unsigned count, most;
     bool is_inside;
-    bool is_first, is_over; // the first crossing is enough where doubles tell it; it is there
+    bool is_first, is_over; // the first crossing is enough where doubles find it; it is there
 } Found;
 
 static void cross(Found *found, double t)

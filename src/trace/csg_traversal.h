@@ -291,7 +291,7 @@ static void traversal_next_face(CsgTraversal *p, uint32_t index)
     cursor->is_inside = !cursor->is_inside;
 }
 
-// The crossings that are left tell by their number whether the ray starts inside.
+// The ray starts inside if the number of crossings that are left is odd.
 static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
 {
     const Solid *solid = traversal_solid(p, index);

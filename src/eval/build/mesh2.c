@@ -123,7 +123,7 @@ static bool read_faces(MeshReader *reader, const AstNode *node)
     return mesh_list_close(&list, is_fine);
 }
 
-// Faces beyond those that it tells of are flat.
+// Faces beyond those that the list holds are flat.
 static bool read_normal_indices(MeshReader *reader, const AstNode *node)
 {
     MeshList list;
