@@ -35,7 +35,8 @@ rt_status share_agree(rt_session *session, const Options *options, Voice *voice,
 // Sets what the session shares of the picture that goes to `output`: nothing for most runs. RT_OK, or what is reported.
 rt_status share_set(rt_session *session, const Options *options, const char *output);
 
-// The files beside a picture: that of the part, and the checkpoint. To be freed; NULL when out of memory.
+// The names of the files that stand next to a picture: that of the part, and the checkpoint. To be freed; NULL when out
+// of memory.
 char *share_part_name(const Options *options, const char *output);
 char *share_checkpoint_name(const Options *options, const char *output);
 

@@ -1,7 +1,8 @@
 // Camera rays: from the eye through screenCenter + x screenU + y screenV.
 //
 // Cameras that are wider have rays of their own, with u across and v upright, |R| and |U| the lengths of `right` and
-// `up`, r, u^ and d unit vectors along `right`, `up` and `direction`, A the angle; all measured beside POV-Ray:
+// `up`, r, u^ and d unit vectors along `right`, `up` and `direction`, A the angle; all as measured in POV-Ray's
+// pictures:
 //   fisheye:           at the angle A sqrt((u |R|)² + (v |U|)²) to d, where the root is at most 1/2, turned as
 //                      (u |R|, v |U|)
 //   ultra wide angle:  sin(u A) r + sin(v A |U| / |R|) u^ + cos(u A) cos(v A |U| / |R|) d
