@@ -249,7 +249,9 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
         .tracer = &probe_tracer,
         .painter = &painter,
         .load_pictures = load_pictures,
-        .statement = !session->frames.is_expected ? NULL : session->loaded ? session_note_slice : session_note_statement,
+        .statement = !session->frames.is_expected ? NULL
+                     : session->loaded            ? session_note_slice
+                                                  : session_note_statement,
         .declared = &session->names_declared,
         .cancel = &session->cancel,
         .message = forward_message,
@@ -458,6 +460,31 @@ static bool draw_over(rt_session *session, const Prepared *prepared, int threads
     return render_overlay(prepared, threads, &options, &session->film) == RENDER_OK;
 }
 
+// Traces the film, puts it in linear light and draws over it. Returns whether there is a picture: also of a run that
+// was interrupted when each pixel had a sample.
+static bool trace_picture(rt_session *session, const Prepared *prepared, int threads, OverlayOptions overlay,
+                          RenderResult *result)
+{
+    SamplingOptions sampling = session_sampling(session);
+    RenderOptions options = {
+        .threads = threads,
+        .progress = session->callbacks.progress ? forward_progress : NULL,
+        .client = session,
+        .cancel = &session->cancel,
+        .sampling = sampling_is_wanted(&sampling) ? &sampling : NULL,
+        .antialias = session->antialias.method != 0 ? &session->antialias : NULL,
+        .share = session_sharing_table(session),
+    };
+    *result = trace_film(session, prepared, &options);
+    bool has_picture = *result == RENDER_OK || (*result == RENDER_CANCELLED && session->error.samples > 0.0);
+    if (has_picture) {
+        session_film_to_linear(&session->scene.settings, &session->film);
+        *result = draw_over(session, prepared, threads, overlay) ? *result : RENDER_NO_MEMORY;
+        has_picture = *result != RENDER_NO_MEMORY;
+    }
+    return has_picture;
+}
+
 static rt_status render_scene(rt_session *session, void *argument)
 {
     double start = clock_seconds();
@@ -466,8 +493,11 @@ static rt_status render_scene(rt_session *session, void *argument)
     session->threads = threads;
     bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
                     session->precision == RT_PRECISION_DOUBLE;
-    GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL,
-                                .rays = session_camera_rays(session), .kept = is_spent ? NULL : &session->kept,
+    GeometryOptions geometry = {.threads = threads,
+                                .isa = session->isa,
+                                .spent = is_spent ? &session->scene : NULL,
+                                .rays = session_camera_rays(session),
+                                .kept = is_spent ? NULL : &session->kept,
                                 .cancel = &session->cancel};
     OverlayOptions overlay = session->overlay;
     overlay_find_reach(&overlay, &session->scene);
@@ -497,23 +527,8 @@ static rt_status render_scene(rt_session *session, void *argument)
     session->kernel = prepared_kernel_name(prepared);
     session->prepare_seconds = clock_seconds() - start;
     start = clock_seconds();
-    SamplingOptions sampling = session_sampling(session);
-    RenderOptions options = {
-        .threads = threads,
-        .progress = session->callbacks.progress ? forward_progress : NULL,
-        .client = session,
-        .cancel = &session->cancel,
-        .sampling = sampling_is_wanted(&sampling) ? &sampling : NULL,
-        .antialias = session->antialias.method != 0 ? &session->antialias : NULL,
-        .share = session_sharing_table(session),
-    };
-    RenderResult result = trace_film(session, prepared, &options);
-    bool has_picture = result == RENDER_OK || (result == RENDER_CANCELLED && session->error.samples > 0.0);
-    if (has_picture) {
-        session_film_to_linear(&session->scene.settings, &session->film);
-        result = draw_over(session, prepared, threads, overlay) ? result : RENDER_NO_MEMORY;
-        has_picture = result != RENDER_NO_MEMORY;
-    }
+    RenderResult result;
+    bool has_picture = trace_picture(session, prepared, threads, overlay, &result);
     prepared_free(prepared);
     if (!has_picture) {
         film_fini(&session->film);

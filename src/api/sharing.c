@@ -1,8 +1,8 @@
 // Work on a picture that several processes share, or that is stopped and continued: what is traced here, where the rest
 // comes from, and what is kept.
 //
-// Turns settings and files into the table that rendering asks (render/records/tile_share.h), and what is wrong with them into
-// messages. Traces nothing.
+// Turns settings and files into the table that rendering asks (render/records/tile_share.h), and what is wrong with
+// them into messages. Traces nothing.
 //
 // SPDX-License-Identifier: MIT
 #include <errno.h>

@@ -219,8 +219,8 @@ bool ast_equal(const AstNode *one, const AstNode *other)
     if (one->kind == AST_PACKED) {
         return one->count == other->count && one->pack->number_count == other->pack->number_count &&
                memcmp(one->pack->widths, other->pack->widths, one->count) == 0 &&
-               memcmp(one->pack->numbers, other->pack->numbers,
-                      one->pack->number_count * sizeof *one->pack->numbers) == 0;
+               memcmp(one->pack->numbers, other->pack->numbers, one->pack->number_count * sizeof *one->pack->numbers) ==
+                   0;
     }
     return lists_equal(one->a, other->a) && lists_equal(one->b, other->b) && lists_equal(one->c, other->c);
 }

@@ -72,13 +72,13 @@ static const uint16_t refused_connections[] = {
 
 // What changes files: refused to a process that only reads.
 static const uint16_t refused_writes[] = {
-    __NR_ftruncate, __NR_truncate, __NR_renameat, __NR_renameat2, __NR_unlinkat, __NR_linkat, __NR_mkdirat, __NR_fchmod,
-    __NR_fchmodat, __NR_utimensat, __NR_setxattr, __NR_fsetxattr, __NR_lsetxattr, __NR_fallocate,
+    __NR_ftruncate, __NR_truncate, __NR_renameat,  __NR_renameat2, __NR_unlinkat,  __NR_linkat,    __NR_mkdirat,
+    __NR_fchmod,    __NR_fchmodat, __NR_utimensat, __NR_setxattr,  __NR_fsetxattr, __NR_lsetxattr, __NR_fallocate,
 #ifdef __NR_openat2
     __NR_openat2,
 #endif
 #ifdef __NR_creat
-    __NR_creat, __NR_rename, __NR_unlink, __NR_rmdir, __NR_link, __NR_mkdir, __NR_chmod,
+    __NR_creat,     __NR_rename,   __NR_unlink,    __NR_rmdir,     __NR_link,      __NR_mkdir,     __NR_chmod,
 #endif
 };
 

@@ -9,8 +9,8 @@
 // Whether this kernel and processor have it.
 bool confine_filter_exists(void);
 
-// From now on calls for other programs, processes and sockets fail with EPERM; process_copy() works. By what else is said
-// of it:
+// From now on calls for other programs, processes and sockets fail with EPERM; process_copy() works. By what else is
+// said of it:
 typedef enum ConfineFilter {
     CONFINE_IS_STRICT = 1, // no memory can be made that can be run, which loading a library needs
     CONFINE_SERVES = 2,    // connections of a socket that listens may be taken and answered

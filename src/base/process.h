@@ -16,8 +16,8 @@
 // The number: the upper half of the flags that the call `clone` takes, which the kernel does not read.
 uint32_t process_key(void);
 
-// As fork does: 0 in the copy, below 0 with errno when there is none. Where the program has forbidden fork, it must have
-// one thread that runs: locks of the C library that others hold would stay so in the copy.
+// As fork does: 0 in the copy, below 0 with errno when there is none. Where the program has forbidden fork, it must
+// have one thread that runs: locks of the C library that others hold would stay so in the copy.
 pid_t process_copy(void) RT_MUST_CHECK;
 
 #endif

@@ -93,8 +93,8 @@ SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_b
 SourceResult source_open_real(SourceMap *map, const char *real, const char *name, uint64_t limit_bytes, Source **source,
                               int *error_number) RT_MUST_CHECK;
 
-// Makes such a file, or empties or prolongs one that is there, and opens it for writing. -1 and errno on failure; EINVAL
-// for what is no regular file.
+// Makes such a file, or empties or prolongs one that is there, and opens it for writing. -1 and errno on failure;
+// EINVAL for what is no regular file.
 int source_create_real(const char *real, bool appends) RT_MUST_CHECK;
 
 // The same for a stream that is open already, which is read to its end at once and stays the caller's.

@@ -71,7 +71,8 @@ static OptionsResult settle_untrusted(Options *options)
                                  "`--allow-read`");
     }
     if (options->write_folder_count > 0) {
-        return option_complain(&options->reading, "`--untrusted` lets a scene write no files: leave out `--allow-write`");
+        return option_complain(&options->reading,
+                               "`--untrusted` lets a scene write no files: leave out `--allow-write`");
     }
     if (options->action == ACTION_RENDER && (!is_png(options->output) || !is_png(options->error_map))) {
         return option_complain(&options->reading, "`--untrusted` writes pictures in PNG only");
@@ -132,8 +133,8 @@ OptionsResult options_read(int argc, char **argv, Options *options)
     options->read_folders = calloc((size_t)argc + 1, sizeof *options->read_folders);
     options->write_folders = calloc((size_t)argc + 1, sizeof *options->write_folders);
     options->scenes = calloc((size_t)argc + 1, sizeof *options->scenes);
-    if (!options->include_paths || !options->declarations || !options->warnings || !options->read_folders || !options->write_folders ||
-        !options->scenes) {
+    if (!options->include_paths || !options->declarations || !options->warnings || !options->read_folders ||
+        !options->write_folders || !options->scenes) {
         return OPTIONS_NO_MEMORY;
     }
     find_format(argc, argv, options);

@@ -447,8 +447,8 @@ static rt_status confine_runs(rt_session *session, Options *options)
     while (rt_include_path(session, folders)) {
         folders++;
     }
-    const char **reads = calloc(2 * scenes + 3 + folders + (size_t)options->read_folder_count +
-                                    (size_t)options->joined_count, sizeof *reads);
+    const char **reads = calloc(
+        2 * scenes + 3 + folders + (size_t)options->read_folder_count + (size_t)options->joined_count, sizeof *reads);
     char **own = calloc(scenes + 1, sizeof *own);
     bool is_whole = reads && own;
     if (is_whole && options->resumes) {

@@ -11,10 +11,12 @@
 // The words of the command line as text, for share_recall; to be freed, NULL when out of memory.
 char *share_command(int argc, char **argv);
 
-// What cannot be combined, of options that are read; takes the files of --join out of the scenes.
+// Refuses options that cannot be combined, once all are read, and takes the files of --join out of the scenes.
+// OPTIONS_GO or OPTIONS_WRONG, with the complaint in options->reading.
 OptionsResult share_settle(Options *options);
 
-// --join: reads the options anew from the command that the first part has, with the output of those given.
+// --join: reads the options anew from the command that the first part has, with the output of those given. *status is
+// not RT_OK where that part cannot be read, which is reported.
 OptionsResult share_recall(rt_session *session, Options *options, Povray *povray, Voice *voice, rt_status *status);
 
 // --mpi: this process becomes a rank, of which those above 0 are silent unless they fail alone; frames are dealt.
@@ -30,10 +32,11 @@ static inline bool share_has_ranks(const Options *options)
 // Of such a picture, when the scene is loaded or could not be: what all do.
 rt_status share_agree(rt_session *session, const Options *options, Voice *voice, rt_status status);
 
-// Tells the session what is shared of the picture that goes to `output`; nothing for most runs.
+// Sets what the session shares of the picture that goes to `output`: nothing for most runs. RT_OK, or what is reported.
 rt_status share_set(rt_session *session, const Options *options, const char *output);
 
-// The files beside a picture: that of the part, and the checkpoint. To be freed; NULL when out of memory.
+// The names of the files that stand next to a picture: that of the part, and the checkpoint. To be freed; NULL when out
+// of memory.
 char *share_part_name(const Options *options, const char *output);
 char *share_checkpoint_name(const Options *options, const char *output);
 

@@ -36,8 +36,8 @@ void picture_file_fini(PictureFile *file)
     file->samples = NULL;
 }
 
-// The stream of a descriptor, which it takes; NULL: the error says why. Only regular files are read: a pipe would block,
-// and the readers seek.
+// The stream of a descriptor, which it takes; NULL: the error says why. Only regular files are read: a pipe would
+// block, and the readers seek.
 static FILE *open_readable(const char *path, int fd, ImageError *error)
 {
     struct stat status;
@@ -157,8 +157,8 @@ static ImageStatus read_by_module(const char *path, int fd, const char *name, co
     return status;
 }
 
-// The place of what reads a stream of the format asked for, NULL for any, in the table, whose length stands for any format;
-// IMAGE_NOT_A_PICTURE when the stream is of another one.
+// The place of what reads a stream of the format asked for, NULL for any, in the table, whose length stands for any
+// format; IMAGE_NOT_A_PICTURE when the stream is of another one.
 static ImageStatus place_asked(FILE *stream, const char *format, size_t *asked, ImageError *error)
 {
     size_t found = place_found(stream);

@@ -79,7 +79,7 @@ static bool pipe_put(int fd, const void *bytes, size_t length)
     return true;
 }
 
-// Loads what reads the format, while memory that can be run may still be made. What is missing is told by reading, too.
+// Loads what reads the format, while memory that can be run may still be made. Reading reports what is missing, too.
 static bool load_module(const char *format)
 {
     ImageError error;

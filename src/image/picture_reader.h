@@ -1,9 +1,9 @@
 // Reading picture files in a process of its own, for formats that large libraries decode: what a broken file makes of
 // such a library is kept from the program.
 //
-// The process is a copy of this one that has forbidden itself all but reading (base/confine_filter.h). It is started for
-// the first file and serves those after it that the same library reads; samples come back through a pipe, and whatever
-// it says is judged.
+// The process is a copy of this one that has forbidden itself all but reading (base/confine_filter.h). It is started
+// for the first file and serves those after it that the same library reads; samples come back through a pipe, and
+// whatever it says is judged.
 //
 // SPDX-License-Identifier: MIT
 #ifndef IMAGE_PICTURE_READER_H

@@ -1,8 +1,9 @@
 // Blobs: surfaces where a sum of fields is a threshold; inside is where it is more.
 //
 // The field of a ball is strength (1 - d²)² within distance 1 of its middle, that of a rod the same around a stretch of
-// the z axis from 0 to its height; each under an affine map. A part's list of numbers is: the threshold, how many
-// components there are and how many nodes, the nodes of a tree over them, and the components in the tree's order.
+// the z axis from 0 to its height (POV-Ray's manual, "Blob"); each under an affine map. A part's list of numbers is:
+// the threshold, how many components there are and how many nodes, the nodes of a tree over them, and the components in
+// the tree's order.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_BLOB_H
@@ -52,17 +53,20 @@ static inline Blob blob_of(const double *list)
                   (const BlobComponent *)(const void *)(list + BLOB_HEAD + (size_t)BLOB_NODE * nodes)};
 }
 
-// How long a list is, at most.
+// How many numbers a list of so many components has, at most.
 size_t blob_list_most(uint32_t component_count);
 
-// Sets a component by its numbers; `cap` - `base` is its stretch, and 0 for a ball. False: it is flat or infinite.
+// Sets a component from what the scene's text says of it; `transform` leads from where that is said to the blob's
+// space. A rod reaches from `base` to `cap`; a ball is at `base`, and `cap` is the same. False: it is flat or infinite.
 bool blob_component(BlobComponent *component, bool is_rod, Vec3 base, Vec3 cap, double radius, double strength,
                     const Transform *transform);
 
-// The list of some components, which are put into another order; at least one.
+// Makes the list of at least one component in `list`, which has room for blob_list_most numbers; what it returns refers
+// to that. What `components` hold afterwards means nothing.
 Numbers blob_make(double threshold, BlobComponent *components, uint32_t count, double *list);
 
-// How far a point is from what the component is around, squared and in its own space, and where in that space.
+// The square of the distance, in the component's own space, of a point of the blob's from what the component is around;
+// *own is the point in that space.
 double blob_distance2(const BlobComponent *component, Vec3 point, Vec3 *own);
 
 // The field at a point of the blob's space.

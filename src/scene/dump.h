@@ -37,8 +37,8 @@ void dump_interior_word(uint32_t interior, TextBuffer *out);
 // a body of its own in another one has none around.
 void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *around, TextBuffer *out);
 
-// Declarations of the meshes (Mesh1, …) whose faces have no textures of their own, before all shapes; and a part that is
-// a mesh, up to its matrix.
+// Declarations of the meshes (Mesh1, …) whose faces have no textures of their own, before all shapes; and a part that
+// is a mesh, up to its matrix.
 void dump_meshes(const Scene *scene, TextBuffer *out);
 void dump_mesh_part(const Scene *scene, const Part *part, TextBuffer *out);
 

@@ -20,24 +20,25 @@ typedef enum FontResult {
 typedef struct Font {
     const FontModule *module;
     FontFace *face;
-    double unit; // of the font's lengths
+    double unit; // one of the font's lengths, where the font's size is 1
 } Font;
 
 // A letter at its origin, on the line v = 0.
 typedef struct FontLetter {
     uint32_t index;
-    double advance, bearing; // from its origin to the next letter's, and to its own left edge
+    double advance, bearing; // from its origin to the next letter's, and to its own left edge; the font's size is 1
     Numbers outline;         // with no piece: it is not seen
     bool is_cut;             // it has more pieces than an outline may have
 } FontLetter;
 
-// A font of a file; why not, in one line of `why`.
+// Opens a font of a file, for font_close. On another result nothing is open, and `why` says in one line what is wrong.
 FontResult font_open(Font *font, const char *path, char *why, size_t size) RT_MUST_CHECK;
 void font_close(Font *font);
 
+// The letter of a character; its outline lives as long as the arena. FONT_OK or FONT_NO_MEMORY.
 FontResult font_letter(Font *font, uint32_t character, Arena *arena, FontLetter *letter) RT_MUST_CHECK;
 
-// How much farther apart two letters stand.
+// How much farther apart than `advance` says two letters stand, by their `index`; less than 0: nearer.
 double font_kerning(Font *font, uint32_t left, uint32_t right);
 
 #endif

@@ -13,7 +13,7 @@
 typedef enum FormulaOp {
     FORMULA_NUMBER, // puts `number`
     FORMULA_SLOT,   // puts argument `which`
-    // Of two.
+    // Of two; comparisons, `and` and `or` give 1 or 0.
     FORMULA_ADD,
     FORMULA_SUB,
     FORMULA_MUL,
@@ -59,11 +59,11 @@ typedef enum FormulaOp {
     // Of more.
     FORMULA_SELECT3,
     FORMULA_SELECT4,
-    FORMULA_NOISE,         // of three numbers; of the scene's generator
-    FORMULA_NOISE_CHOSEN,  // of four, the last one being the generator
-    FORMULA_PATTERN,       // the value of Scene.patterns[which] at three numbers
-    FORMULA_PIGMENT,       // its colour's component `number`, see FormulaComponent
-    FORMULA_CALL,          // the formula that begins at `which`, of `number` arguments
+    FORMULA_NOISE,        // of three numbers; of the scene's generator
+    FORMULA_NOISE_CHOSEN, // of four, the last one being the generator
+    FORMULA_PATTERN,      // the value of Scene.patterns[which] at three numbers
+    FORMULA_PIGMENT,      // its colour's component `number`, see FormulaComponent
+    FORMULA_CALL,         // the formula that begins at `which`, of `number` arguments
     FORMULA_OPS
 } FormulaOp;
 
@@ -75,9 +75,9 @@ enum { FORMULA_STACK_MOST = 240, FORMULA_STEPS_MOST = 100000 };
 
 typedef struct FormulaStep {
     double number;
-    uint32_t op;    // FormulaOp
+    uint32_t op; // FormulaOp
     uint32_t which;
-    uint32_t next;  // the step after it, or RECORD_NONE
+    uint32_t next; // the step after it, or RECORD_NONE
     uint32_t unused;
 } FormulaStep;
 

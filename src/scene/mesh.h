@@ -15,8 +15,8 @@
 #include "math/vec3.h"
 
 enum {
-    MESH_FLAT = UINT32_MAX,         // in the place of a face's first normal: it has none
-    MESH_FACES_MOST = 1 << 28,      // what a tree of them has room for
+    MESH_FLAT = UINT32_MAX,    // in the place of a face's first normal: it has none
+    MESH_FACES_MOST = 1 << 28, // what a tree of them has room for
 };
 
 typedef struct Mesh {
@@ -27,9 +27,9 @@ typedef struct Mesh {
     uint32_t (*face_normals)[3]; // three of the normals each, or MESH_FLAT; NULL: all are flat; may be `faces`
     uint32_t *face_textures;     // from 1 on; 0: that of the mesh; NULL: all have that
     Vec3 inside_vector;
-    bool has_inside;  // what an odd number of faces is before, along inside_vector
-    Vec3 low, high;   // of the vertices that faces have
-    uint32_t number;  // among those of Scene.meshes whose faces have no textures of their own
+    bool has_inside; // what an odd number of faces is before, along inside_vector
+    Vec3 low, high;  // of the vertices that faces have
+    uint32_t number; // among those of Scene.meshes whose faces have no textures of their own
     uint64_t source;
 } Mesh;
 

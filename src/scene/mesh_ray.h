@@ -19,9 +19,9 @@
 #include "scene/mesh.h"
 
 typedef struct MeshRay {
-    double origin[3];          // in the order of the axes x, y, z below
+    double origin[3];                 // in the order of the axes x, y, z below
     double shear_x, shear_y, inverse; // inverse: of the direction along z
-    uint8_t x, y, z;           // axes; the direction is greatest along z
+    uint8_t x, y, z;                  // axes; the direction is greatest along z
 } MeshRay;
 
 // The point where a ray meets a face: weights of the corners that sum up to 1, none below 0.
@@ -69,7 +69,8 @@ RT_ALWAYS_INLINE void mesh_shear(const MeshRay *ray, const float v[3], double p[
     p[2] = z;
 }
 
-// Weights and t of edge functions that have one sign. What is on the edge only has weights of 0: then the first corner's.
+// Weights and t of edge functions that have one sign. What is on the edge only has weights of 0: then the first
+// corner's.
 static inline void mesh_point_set(const MeshRay *ray, const double a[3], const double b[3], const double c[3], double u,
                                   double v, double w, MeshPoint *point)
 {

@@ -25,7 +25,8 @@ typedef struct NumberPool {
     size_t bytes;
 } NumberPool;
 
-// *list becomes the pool's own, equal one. False when out of memory.
+// *list becomes the pool's own, equal one, which lives until numbers_fini; what it referred to before stays the
+// caller's. False when out of memory: *list is as it was.
 bool numbers_keep(NumberPool *pool, Numbers *list) RT_MUST_CHECK;
 
 void numbers_fini(NumberPool *pool);

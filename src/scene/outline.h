@@ -74,7 +74,8 @@ static inline const double *outline_piece(const Numbers *list, uint32_t i)
 bool outline_is_straight(const double points[8]);
 void outline_straighten(double points[8]);
 
-// Begins a list of that degree, and adds a piece; the list has room for it.
+// Begin a list of that degree, and add a piece by its control points, as many as the outline's degree and one. `items`
+// has room: OUTLINE_HEAD, and OUTLINE_PIECE_NUMBERS for each piece; *count is how many numbers are there.
 void outline_begin(double *items, size_t *count, unsigned degree, bool is_conic);
 void outline_add(double *items, size_t *count, const double *points);
 

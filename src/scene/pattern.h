@@ -78,7 +78,7 @@ typedef struct Pattern {
 
 // What a pattern gives for a point.
 typedef enum PatternForm {
-    PATTERN_OF_VALUES,
+    PATTERN_OF_VALUES, // one number
     PATTERN_OF_BLOCKS,
     PATTERN_OF_COLOURS,
     PATTERN_OF_ALL, // nothing: all that lies along it counts, by weights

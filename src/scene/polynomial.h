@@ -55,7 +55,7 @@ void polynomial_part(const Numbers *list, Part *part);
 // Whether all coefficients but the last are 0.
 bool polynomial_is_constant(const double *list);
 
-// A box of the surface, where its inside is within it and a box can be told. The surface of a quadric only.
+// The box of a surface that holds its inside. False: none is known, which is so of all but some quadrics.
 bool polynomial_box(const double *list, Vec3 *low, Vec3 *high);
 
 double polynomial_value(const double *list, Vec3 p);

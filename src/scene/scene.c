@@ -16,7 +16,8 @@ _Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * si
 _Static_assert(sizeof(PatternedPigment) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Texture) == sizeof(Pigment) + sizeof(Transform) + sizeof(Pattern) + 4 * sizeof(uint32_t),
                "no padding in a texture");
-_Static_assert(sizeof(PictureSource) == 2 * sizeof(char *) + 4 * sizeof(uint32_t) + 2 * sizeof(double) + sizeof(uint64_t),
+_Static_assert(sizeof(PictureSource) ==
+                   2 * sizeof(char *) + 4 * sizeof(uint32_t) + 2 * sizeof(double) + sizeof(uint64_t),
                "no padding in a source of a picture");
 _Static_assert(sizeof(PictureShade) == sizeof(double) + sizeof(uint64_t) + 4 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Normal) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(double) + 4 * sizeof(uint32_t),

@@ -261,8 +261,8 @@ typedef struct Plane {
 //                   bounds it
 //   blob            where the fields of the list are at its threshold (scene/blob.h), within the box from fixed[0] to
 //                   fixed[1]
-//   prism           an outline in x and z, from y = fixed[0].y to fixed[1].y, one that is conic y times as large; fixed[]
-//                   are its bounds, the list is the outline
+//   prism           an outline in x and z, from y = fixed[0].y to fixed[1].y, one that is conic y times as large;
+//                   fixed[] are its bounds, the list is the outline
 //   polygon         an outline of straight pieces in x and y, at z = 0
 //   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
 typedef enum PartKind {

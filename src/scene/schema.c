@@ -408,12 +408,12 @@ static const SchemaProperty fog_properties[] = {
      .doc = "of turbulence: how much weaker each octave is"},
     {"lambda", TYPE_NUMBER, AT(FogDesc, lambda), GIVEN(FogDesc, is_turbulent),
      .doc = "of turbulence: how much finer each octave is"},
-    {"octaves", TYPE_INTEGER, AT(FogDesc, octaves), GIVEN(FogDesc, is_turbulent), .range = {RANGE_CLAMP, false, 1.0, 10.0},
-     .doc = "of turbulence: noises added up"},
+    {"octaves", TYPE_INTEGER, AT(FogDesc, octaves), GIVEN(FogDesc, is_turbulent),
+     .range = {RANGE_CLAMP, false, 1.0, 10.0}, .doc = "of turbulence: noises added up"},
 };
 
-static const FogDesc fog_defaults = {.transform = IDENTITY, .type = 1, .up = {0, 1, 0}, .turb_depth = 0.5,
-                                     .lambda = 2.0, .omega = 0.5, .octaves = 6};
+static const FogDesc fog_defaults = {
+    .transform = IDENTITY, .type = 1, .up = {0, 1, 0}, .turb_depth = 0.5, .lambda = 2.0, .omega = 0.5, .octaves = 6};
 
 static const SchemaProperty settings_properties[] = {
     {"assumed_gamma", TYPE_ACTION, ACTION_ASSUMED_GAMMA,
@@ -450,7 +450,8 @@ static const SchemaProperty texture_properties[] = {
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
     {"texture_map", TYPE_BLOCK, ACTION_MAP, .doc = "textures along a pattern of values"},
-    {"tiles", TYPE_BLOCK, ACTION_TILES, .doc = "old: `{ textures tile2 textures }`, `checker` of the second and the first"},
+    {"tiles", TYPE_BLOCK, ACTION_TILES,
+     .doc = "old: `{ textures tile2 textures }`, `checker` of the second and the first"},
     {"no_bump_scale", TYPE_FLAG, AT(TextureDesc, keeps_length),
      .doc = "the depth of its bumps is not scaled with it; not for a pattern of textures"},
 };
@@ -488,10 +489,12 @@ static const SchemaProperty pigment_properties[] = {
 
 static const SchemaProperty warp_properties[] = {
     {"turbulence", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector: moves each point by noise, so much"},
-    {"octaves", TYPE_INTEGER, WARP_AT(octaves), .range = {RANGE_CLAMP, false, 1.0, 10.0}, .doc = "of turbulence: noises added up"},
+    {"octaves", TYPE_INTEGER, WARP_AT(octaves), .range = {RANGE_CLAMP, false, 1.0, 10.0},
+     .doc = "of turbulence: noises added up"},
     {"lambda", TYPE_NUMBER, WARP_AT(lambda), .doc = "of turbulence: how much finer each octave is"},
     {"omega", TYPE_NUMBER, WARP_AT(omega), .doc = "of turbulence: how much weaker each octave is"},
-    {"repeat", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector along x, y or z: the slice so wide again and again"},
+    {"repeat", TYPE_ACTION, ACTION_WARP_TYPE,
+     .doc = "then a vector along x, y or z: the slice so wide again and again"},
     {"offset", TYPE_VECTOR, WARP_AT(offset), .doc = "of `repeat`: each slice from the one before"},
     {"flip", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "of `repeat`: every other slice is turned where this is not 0"},
     {"black_hole", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then its middle and its radius: draws points to its middle"},
@@ -508,8 +511,15 @@ static const SchemaProperty warp_properties[] = {
 };
 
 static const WarpDesc warp_defaults = {
-    .warp = {.to_outside = IDENTITY, .vector = {0, 0, 1}, .radius = 1.0, .strength = 1.0, .power = 2.0, .lambda = 2.0,
-             .omega = 0.5, .octaves = 6, .next = RECORD_NONE},
+    .warp = {.to_outside = IDENTITY,
+             .vector = {0, 0, 1},
+             .radius = 1.0,
+             .strength = 1.0,
+             .power = 2.0,
+             .lambda = 2.0,
+             .omega = 0.5,
+             .octaves = 6,
+             .next = RECORD_NONE},
 };
 
 #define FILE_TYPE(word, text) {word, TYPE_ACTION, ACTION_IMAGE, .is_first = true, .doc = text}
@@ -560,7 +570,8 @@ static const SchemaProperty finish_properties[] = {
      .doc = "old: share of the light let through that continues"},
     {"ior", TYPE_NUMBER, AT(FinishDesc, ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "old: the `ior` of the interior; 0: as the interior says"},
-    {"crand", TYPE_NUMBER, FINISH_AT(crand), .doc = "scattered light is less by chance, by up to so much, from place to place"},
+    {"crand", TYPE_NUMBER, FINISH_AT(crand),
+     .doc = "scattered light is less by chance, by up to so much, from place to place"},
     {"irid", TYPE_BLOCK, ACTION_IRID, .doc = "`{ amount … }`: colours of a thin layer, which change with the angle"},
     {"conserve_energy", TYPE_FLAG, AT(FinishDesc, conserve_energy),
      .doc = "what is let through loses what is reflected"},
@@ -743,7 +754,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                       .is_declarable = true,
                       .arguments = LIST(quadric_arguments),
                       .groups = {LIST(torus_properties), OBJECT_GROUPS},
-                      .doc = "Where a polynomial of order 2 is 0: ellipsoids, cones, paraboloids; inside where it is less."},
+                      .doc = "Where a polynomial of order 2 is 0: ellipsoids, cones, paraboloids; inside where it is "
+                             "less."},
     [KIND_CUBIC] = {.word = "cubic",
                     .what = "a cubic",
                     .size = sizeof(PolynomialDesc),
@@ -778,8 +790,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .is_object = true,
                    .is_declarable = true,
                    .groups = {LIST(blob_properties), OBJECT_GROUPS},
-                   .doc = "Where the fields of balls and rods together are as strong as a threshold; inside where they are "
-                          "stronger."},
+                   .doc = "Where the fields of balls and rods together are as strong as a threshold; inside where they "
+                          "are stronger."},
     [KIND_BLOB_BALL] = {.word = "sphere",
                         .inside = "blob",
                         .size = sizeof(BlobPartDesc),
@@ -818,8 +830,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .is_object = true,
                    .is_declarable = true,
                    .groups = {OBJECT_GROUPS},
-                   .doc = "`ttf` and the name of a font, a string, how thick it is, how much farther apart letters stand: "
-                          "a union of prisms."},
+                   .doc = "`ttf` and the name of a font, a string, how thick it is, how much farther apart letters "
+                          "stand: a union of prisms."},
     [KIND_TRIANGLE] = {.word = "triangle",
                        .what = "a triangle",
                        .size = sizeof(TriangleDesc),

@@ -1,4 +1,4 @@
-// One process that traces all tiles, or those of one part, beside what is known from before: parts of a job, their
+// One process that traces all tiles, or those of one part, but for what is known from before: parts of a job, their
 // joining, and runs that are continued.
 //
 // SPDX-License-Identifier: MIT

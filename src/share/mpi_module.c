@@ -59,8 +59,8 @@ static void stop(int code)
     MPI_Abort(MPI_COMM_WORLD, code);
 }
 
-// Of a fault MPI tells, and ends all ranks: errors are fatal unless something else was said. What is short goes through
-// a buffer, so that two ranks that send to each other never wait for each other.
+// MPI itself reports a fault and ends all ranks: its errors are fatal unless a program asks for another way. What is
+// short goes through a buffer, so that two ranks that send to each other never wait for each other.
 static void send_message(int to, const void *bytes, size_t length)
 {
     if (length <= SHORT_BYTES) {

@@ -177,7 +177,7 @@ static void end_pass(Ranks *ranks)
 
 static void serve_first(Ranks *ranks, void (*done)(void *run, int tiles), bool (*stops)(void *run), void *run)
 {
-    int told = 0, looks = 0;
+    int reported = 0, looks = 0;
     bool is_whole = false, is_stopped = false;
     while (!is_whole && !is_stopped) {
         bool heard = false, is_to_stop = stops(run);
@@ -189,8 +189,8 @@ static void serve_first(Ranks *ranks, void (*done)(void *run, int tiles), bool (
         pthread_mutex_unlock(&ranks->lock);
         is_whole = now == ranks->tiles;
         looks = heard ? 0 : looks;
-        if (now > told) {
-            done(run, told = now);
+        if (now > reported) {
+            done(run, reported = now);
         }
         if (!heard && !is_whole) {
             idle(&looks);

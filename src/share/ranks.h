@@ -39,10 +39,11 @@ typedef struct Ranks {
     RankTiles results; // rank 0: of all tiles; others: traced here and not yet sent
 } Ranks;
 
+// The module is the caller's, and stays. False: no lock could be made; nothing is to be released.
 bool ranks_init(Ranks *ranks, const MpiModule *module, int rank, int count) RT_MUST_CHECK;
 void ranks_fini(Ranks *ranks);
 
-// Before a picture. The store is that of its head.
+// Before each picture. The store, which stays the caller's, is that of the picture's head.
 void ranks_use(Ranks *ranks, Store *store);
 
 // What the ranks think of each other before a picture: whether each of them is `ready`, and has the head that rank 0

@@ -46,6 +46,7 @@ typedef struct Store {
     int error;                   // errno
 } Store;
 
+// False: no lock could be made; nothing is to be released.
 bool store_init(Store *store) RT_MUST_CHECK;
 void store_fini(Store *store);
 
@@ -53,7 +54,7 @@ void store_fini(Store *store);
 bool store_know(Store *store, const Partial *files, int count) RT_MUST_CHECK;
 
 // From now on, what is added is in the file at `path` after as many seconds, beside what is known. False when it cannot
-// be written, which `error` tells.
+// be written; `error` says why.
 bool store_keep(Store *store, const char *path, double seconds, ImageError *error) RT_MUST_CHECK;
 
 // The next pass, over so many tiles. Returns how many of them are known.

@@ -253,16 +253,16 @@ static void add_square(double inner0, double inner1, double inner2, double stren
 }
 
 // The field less the threshold by t - base. Where a component has a field, 1 - d² is at most 1, and off by 50 u of its
-// size: its square by 100 u and some. What Horner's scheme adds is beside the terms themselves.
+// size: its square by 100 u and some. What Horner's scheme adds is in proportion to the terms themselves.
 static void line_polynomial(const Line *line, Polynomial *p)
 {
     double terms[DEGREE + 1] = {-line->threshold}, sizes[DEGREE + 1] = {fabs(line->threshold)};
-    double beside[DEGREE + 1] = {fabs(line->threshold)}, greatest = 1.0, fixed = 0.0;
+    double term_sizes[DEGREE + 1] = {fabs(line->threshold)}, greatest = 1.0, fixed = 0.0;
     for (unsigned k = 0; k < line->active_count; k++) {
         const Stretch *s = line->active[k];
         double from = line->base - s->middle, turn = -2.0 * s->square * from, fall = s->square * from * from;
         add_square(s->depth - fall, turn, -s->square, s->strength, terms);
-        add_square(fabs(s->depth - fall), fabs(turn), s->square, fabs(s->strength), beside);
+        add_square(fabs(s->depth - fall), fabs(turn), s->square, fabs(s->strength), term_sizes);
         add_square(1.0 + fabs(s->depth) + fall, fabs(turn), s->square, fabs(s->strength), sizes);
         fixed += fabs(s->strength) * s->size;
         greatest = greater_of(greatest, s->size);
@@ -275,7 +275,7 @@ static void line_polynomial(const Line *line, Polynomial *p)
     for (unsigned i = 0; i <= p->degree; i++) {
         p->terms[i] = terms[i + first];
         p->sizes[i] = sizes[i + first] * (greatest * greatest);
-        p->errors[i] = rounding * beside[i + first] + (first ? 0x1p-47 * greatest * sizes[i + first] : 0.0);
+        p->errors[i] = rounding * term_sizes[i + first] + (first ? 0x1p-47 * greatest * sizes[i + first] : 0.0);
     }
     p->errors[0] += first == 0 ? 0x1p-46 * fixed : 0.0;
     p->errors[0] += first == 0 ? line->threshold_error : 0.0;
@@ -289,7 +289,7 @@ typedef struct Found {
     RayInterval *intervals, open;
     unsigned count, most;
     bool is_inside;
-    bool is_first, is_over; // the first crossing is enough where doubles tell it; it is there
+    bool is_first, is_over; // the first crossing is enough where doubles find it; it is there
 } Found;
 
 static void cross(Found *found, double t)

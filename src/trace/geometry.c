@@ -124,9 +124,9 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
     }
     geometry->kernels = sphere_kernels_choose(options->isa);
     if (!geometry->kernels ||
-        !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent,
-                           options->cancel) ||
-        !planes_init(geometry, scene, exponent) || !shapes_init(&geometry->shapes, scene, exponent, options->threads, options->cancel) ||
+        !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent, options->cancel) ||
+        !planes_init(geometry, scene, exponent) ||
+        !shapes_init(&geometry->shapes, scene, exponent, options->threads, options->cancel) ||
         !coincident_init(geometry)) {
         geometry_free(geometry);
         return NULL;

@@ -19,7 +19,7 @@ struct MeshTable {
     Pages face_pages;
 };
 
-// Of a valid mesh; NULL when out of memory.
+// Of a valid mesh, which must live as long; NULL when out of memory or cancelled.
 MeshTable *mesh_table_new(const Mesh *mesh, int threads, const atomic_bool *cancel) RT_MUST_CHECK;
 void mesh_table_free(MeshTable *table);
 size_t mesh_table_bytes(const MeshTable *table);
@@ -73,7 +73,7 @@ typedef struct MeshCursor {
 // Moves the cursor to the next crossing behind it, by t, then by number; t of the ray. False: there is none.
 bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t);
 
-// How many crossings there are behind the cursor, but those that have been passed.
+// How many crossings there are behind the cursor, but those of which `is_past` says that the ray has passed them.
 typedef bool (*MeshIsPast)(const void *client, double t, uint32_t face); // t of the ray
 uint32_t mesh_count(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client);
 

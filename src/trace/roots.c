@@ -193,7 +193,7 @@ static int sign_beyond(const Polynomial *p, unsigned level, bool is_low)
     return (p->terms[p->degree] > 0.0) != turns ? 1 : -1;
 }
 
-// The sign of a level, if it can be told without double words. A place of a derivative's where it cannot remains one
+// The sign of a level, if doubles are enough to know it. A place of a derivative's where it cannot remains one
 // for the next level: what the derivative does so near to 0 changes the polynomial by less than its own error.
 static bool sign_is_known(Polynomial *p, unsigned level, double x, int *sign)
 {

@@ -32,18 +32,19 @@ struct Polynomial {
     void (*refine)(Polynomial *polynomial, const void *owner);
     const void *owner;
     bool has_levels; // derivatives are in terms[]
-    bool is_exact; // terms[] are the nearest to `exact` then
+    bool is_exact;   // terms[] are the nearest to `exact` then
     DoubleWord exact[ROOTS_DEGREE_MOST + 1];
 };
 
-// When terms, errors and sizes are there. Leading terms that are 0 are left out.
+// Makes a polynomial ready whose degree, terms, errors, sizes, refine and owner are set. Leading terms of 0 are left
+// out.
 void roots_start(Polynomial *polynomial);
 
 // The sign of the polynomial at x: -1, 0, 1.
 int roots_sign(Polynomial *polynomial, double x);
 
-// Where the sign changes between two places, which may be infinite: how many, at most the degree; and what it is before
-// the first.
+// Where the sign changes between two places, which may be infinite: in order, into `roots`, which has room for as many
+// as the degree. Returns how many; *sign is what it is before the first.
 unsigned roots_find(Polynomial *polynomial, double low, double high, double *roots, int *sign);
 
 // The same from -half to half, sooner where the degree is 4 or less.

@@ -1,6 +1,6 @@
 // Where things stand in groups that are far apart for their size: which of them go into a tree of their own.
 //
-// A tree's boxes have the digits of a float beside the whole tree's size, so things that are much smaller than the
+// A tree's boxes are floats in units of the whole tree's size, so things that are much smaller than the
 // room between their groups would be blurred until every ray met a whole group.
 //
 // SPDX-License-Identifier: MIT

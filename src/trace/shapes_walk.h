@@ -306,8 +306,8 @@ RT_ALWAYS_INLINE void convex_closest(ShapeQuery *q, uint32_t index, const Ray *o
     interval_offer(q, index, object, &interval, interval.leave - interval.enter, false, is_start, passed, first);
 }
 
-// ---- a mesh: the face with the least t, and of those the first, is offered, if the ray has not passed it; for a shadow
-// whichever comes first
+// ---- a mesh: the face with the least t, and of those the first, is offered, if the ray has not passed it; for a
+// shadow whichever comes first
 
 // How far a face may be behind the limit at which it still counts, see MESH_ERROR_MOST.
 #define MESH_BEYOND (1.0 + 2.0 * MESH_ERROR_MOST)

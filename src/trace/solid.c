@@ -299,8 +299,7 @@ static Vec3 prism_side_point(const Solid *solid, Vec3 point, uint8_t side)
 static bool polygon_root(const Solid *solid, const Ray *object, double *t)
 {
     double x, y;
-    return flat_root(object->origin, object->direction, t, &x, &y) &&
-           outline_holds(&solid->list, (OutlinePoint){x, y});
+    return flat_root(object->origin, object->direction, t, &x, &y) && outline_holds(&solid->list, (OutlinePoint){x, y});
 }
 
 // ---- the table

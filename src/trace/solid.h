@@ -122,8 +122,8 @@ RT_ALWAYS_INLINE Ray solid_ray(const Solid *solid, const Ray *ray)
                  linear_direction(&solid->to_object, ray->direction)};
 }
 
-// What of the line is inside of a solid that is not flat, or within its films; `object` is the ray in its space. How many
-// intervals, at most as many as the solid says.
+// What of the line is inside of a solid that is not flat, or within its films; `object` is the ray in its space. How
+// many intervals, at most as many as the solid says.
 static inline unsigned solid_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
 {
     return solid_classes[solid->kind].intervals(solid, object, left, intervals);

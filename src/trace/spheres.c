@@ -349,7 +349,8 @@ static bool maker_plant(Maker *maker, uint32_t count, int threads)
     maker->refs = maker->ref_pages.memory;
     maker_place(maker);
     maker_share(maker, threads, refs_work);
-    return bvh_build(&maker->table->bvh, maker->refs, count, BVH_LEAF_EIGHT, threads, maker->cancel) && maker_count_blocks(maker);
+    return bvh_build(&maker->table->bvh, maker->refs, count, BVH_LEAF_EIGHT, threads, maker->cancel) &&
+           maker_count_blocks(maker);
 }
 
 static bool maker_number_slots(Maker *maker, int threads)
@@ -419,8 +420,8 @@ bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int
     if (scene->spheres.count == 0) {
         return true;
     }
-    Maker maker = {.table = table, .scene = scene, .spent = spent, .records = sphere_records(scene, exponent),
-                   .cancel = cancel};
+    Maker maker = {
+        .table = table, .scene = scene, .spent = spent, .records = sphere_records(scene, exponent), .cancel = cancel};
     maker.chunks = malloc(chunk_count(&maker) * sizeof(*maker.chunks));
     bool done = maker.chunks && maker_make(&maker, threads);
     free(maker.chunks);

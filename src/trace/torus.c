@@ -345,7 +345,8 @@ static unsigned side_intervals(TorusLine *line, double minor, uint8_t side, Side
     return count;
 }
 
-unsigned torus_intervals(double major, double minor, const Ray *ray, SideLeft left, RayInterval intervals[TORUS_INTERVALS])
+unsigned torus_intervals(double major, double minor, const Ray *ray, SideLeft left,
+                         RayInterval intervals[TORUS_INTERVALS])
 {
     TorusLine line;
     line_set(&line, ray);

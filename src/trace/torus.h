@@ -15,7 +15,8 @@ enum { TORUS_INTERVALS = 2 };
 
 // The intervals of the line inside of side 0, in order, and then the one between two crossings of side 1, at most two in
 // all; major and minor > 0, their sum at most 1 or so. Returns how many.
-unsigned torus_intervals(double major, double minor, const Ray *ray, SideLeft left, RayInterval intervals[TORUS_INTERVALS]);
+unsigned torus_intervals(double major, double minor, const Ray *ray, SideLeft left,
+                         RayInterval intervals[TORUS_INTERVALS]);
 
 // A vector along the normal at a point of the side, out of the tube, and that of unit length.
 Vec3 torus_gradient(double major, Vec3 point, uint8_t side);

@@ -1,5 +1,6 @@
-// Preloaded into the program: does at its end what an intruder would do, and says what the kernel answered, a line each.
-// With INTRUDER_READER it does so in libjpeg's place, as the header of a file is read, and falls over its own feet.
+// Preloaded into the program: does at its end what an intruder would do, and says what the kernel answered, a line
+// each. With INTRUDER_READER it does so in libjpeg's place, as the header of a file is read, and falls over its own
+// feet.
 //
 // INTRUDER_OUT is a folder that the program has no business in. Knows nothing of the program.
 //

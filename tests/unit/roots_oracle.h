@@ -30,6 +30,15 @@ static inline void polynomial_init(OraclePolynomial *p, int degree)
     }
 }
 
+// The derivative of p, whose degree is not 0; for polynomial_fini.
+static inline void slope_init(OraclePolynomial *slope, const OraclePolynomial *p)
+{
+    polynomial_init(slope, p->degree - 1);
+    for (int i = 1; i <= p->degree; i++) {
+        mpfr_mul_ui(slope->c[i - 1], p->c[i], (unsigned long)i, MPFR_RNDN);
+    }
+}
+
 static inline void polynomial_fini(OraclePolynomial *p)
 {
     for (int i = 0; i <= ORACLE_DEGREE; i++) {
@@ -92,10 +101,7 @@ static inline void find_roots(const OraclePolynomial *p, double bound, Roots *ro
     if (p->degree == 0) {
         return;
     }
-    polynomial_init(&slope, p->degree - 1);
-    for (int i = 1; i <= p->degree; i++) {
-        mpfr_mul_ui(slope.c[i - 1], p->c[i], (unsigned long)i, MPFR_RNDN);
-    }
+    slope_init(&slope, p);
     find_roots(&slope, bound, &turns);
     mpfr_inits2(BITS, low, high, (mpfr_ptr)NULL);
     mpfr_set_d(low, -bound, MPFR_RNDN);
@@ -121,10 +127,7 @@ static inline bool is_decided(const OraclePolynomial *p, double bound, double sc
     mpfr_t value;
     bool decided = true;
     mpfr_init2(value, BITS);
-    polynomial_init(&slope, p->degree - 1);
-    for (int i = 1; i <= p->degree; i++) {
-        mpfr_mul_ui(slope.c[i - 1], p->c[i], (unsigned long)i, MPFR_RNDN);
-    }
+    slope_init(&slope, p);
     find_roots(&slope, bound, &turns);
     for (int i = 0; i < turns.count; i++) {
         polynomial_at(p, turns.at[i], value);

@@ -108,10 +108,7 @@ static bool is_class_decided(const Surface *surface, const Ray *ray, const Oracl
     mpfr_t value;
     bool decided = true;
     mpfr_init2(value, BITS);
-    polynomial_init(&slope, p->degree - 1);
-    for (int i = 1; i <= p->degree; i++) {
-        mpfr_mul_ui(slope.c[i - 1], p->c[i], (unsigned long)i, MPFR_RNDN);
-    }
+    slope_init(&slope, p);
     find_roots(&slope, bound, &turns);
     for (int i = 0; i < turns.count; i++) {
         polynomial_at(p, turns.at[i], value);

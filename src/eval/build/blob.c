@@ -125,8 +125,8 @@ static void box_join(OwnBox *own, Vec3 middle, double half)
     own->high = vec3_greatest(own->high, vec3_add(middle, reach));
 }
 
-// A ball's box is its own, or, where it is stretched, a cube as large as its map may stretch a coordinate; a rod's is made of those of its ends and of a
-// ball around its middle. Those of a negative strength are left out. Measured.
+// A ball's box is its own, or, where it is stretched, a cube as large as its map may stretch a coordinate; a rod's is
+// made of those of its ends and of a ball around its middle. Those of a negative strength are left out. Measured.
 bool blob_box(const void *object, OwnBox *own)
 {
     const BlobDesc *blob = object;

@@ -130,9 +130,6 @@ bool block_is_lacking(const Block *block, Symbol symbol); // POV-Ray has the wor
 // Marks the block as faulty and reports, unless it follows from a syntax fault inside the block; returns false.
 bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
 
-// Reads what a property of a simple type takes into its place.
-bool block_value(Block *block, const SchemaProperty *property, Span word) RT_MUST_CHECK;
-
 // Tells, now or when it is used, that rtlang has not a word; `owner` as in UnsupportedDesc.
 void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner);
 // A block of a kind that rtlang has not, or that nobody has.
@@ -144,8 +141,17 @@ void block_tell_lacks(Eval *ev, const Value *value, Span use);
 // What `other` was read without, `value` was, too.
 bool block_join_lacks(Eval *ev, Value *value, const Value *other, Span span) RT_MUST_CHECK;
 
+// block_value.c
+// Reads what follows a property's word, of a simple type, into its place in the record. False after a fault.
+bool block_value(Block *block, const SchemaProperty *property, Span word) RT_MUST_CHECK;
+// The same of one value, at `at`, and without looking at what stands there.
+bool block_read_typed(Block *block, const SchemaProperty *property, void *at) RT_MUST_CHECK;
 // True when the number is finite, else a fault.
 bool block_finite(Block *block, double number, Span span, const char *word) RT_MUST_CHECK;
+// Whether a value comes next that is no word.
+bool block_at_expression(Block *block);
+// Where the next item is, or the block's end.
+Span block_here(Block *block);
 
 // transforms.c: the actions of the schema's transforms
 bool transform_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -300,7 +306,7 @@ typedef struct CornerBlend {
 bool mesh_textures_blend(const TextureDesc *const corners[3]);
 void mesh_blend(const MeshDesc *mesh, const MeshCorners *corners, CornerBlend *blend);
 
-// mesh.c
+// mesh.c and mesh2.c
 bool mesh_body(Block *block) RT_MUST_CHECK;
 bool mesh2_body(Block *block) RT_MUST_CHECK;
 bool mesh_close(Block *block) RT_MUST_CHECK;

@@ -13,7 +13,7 @@ typedef struct Made {
     const Function *function;
     uint32_t first; // of its steps
     unsigned steps; // in all, those of calls counted in; at most FORMULA_STEPS_MOST + 1
-    unsigned room;  // on the stack, beside its arguments
+    unsigned room;  // on the stack, not counting its arguments
 } Made;
 
 typedef ARRAY(FormulaStep) Steps;

@@ -122,8 +122,8 @@ static bool pigment_as_pattern(const Builder *builder, const Pigment *pigment, u
         *index = pigment->pattern;
         return true;
     }
-    PatternedPigment record = {.to_world = transform_identity(), .pattern = {.type = PATTERN_PLANAR, .octaves = 1},
-                               .entries = RECORD_NONE};
+    PatternedPigment record = {
+        .to_world = transform_identity(), .pattern = {.type = PATTERN_PLANAR, .octaves = 1}, .entries = RECORD_NONE};
     PigmentEntry entry = {.at = 0.0, .pigment = *pigment, .next = RECORD_NONE};
     return (scene_add_pigment_entry(builder->scene, &entry, &record.entries) &&
             scene_add_pattern(builder->scene, &record, index)) ||

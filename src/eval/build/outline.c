@@ -166,9 +166,8 @@ static bool read_count(Block *block, unsigned least, const char *what, size_t *c
     double number;
     *span = block->node->span;
     if (!cursor_at_value(&block->cursor)) {
-        const AstNode *item = cursor_peek(&block->cursor);
-        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
-                           "`%s` needs a number here: its number of points", block_word(block));
+        return block_fault(block, DIAG_E0253, block_here(block), "`%s` needs a number here: its number of points",
+                           block_word(block));
     }
     if (!cursor_number(&block->cursor, &number, span) || !block_finite(block, number, *span, "number of points")) {
         return false;
@@ -191,9 +190,8 @@ static bool is_at_point(Block *block, size_t read, size_t count)
     if (cursor_at_value(&block->cursor)) {
         return true;
     }
-    const AstNode *item = cursor_peek(&block->cursor);
-    return !block->ev->stop && block_fault(block, DIAG_E0492, item ? item->span : cursor_end(&block->cursor),
-                                           "`%s` needs %zu points, and has %zu", block_word(block), count, read);
+    return !block->ev->stop && block_fault(block, DIAG_E0492, block_here(block), "`%s` needs %zu points, and has %zu",
+                                           block_word(block), count, read);
 }
 
 static bool read_point(Block *block, OutlinePoint *point)
@@ -221,9 +219,8 @@ static bool read_height(Block *block, const char *what, double *height)
 {
     Span span = block->node->span;
     if (!cursor_at_value(&block->cursor)) {
-        const AstNode *item = cursor_peek(&block->cursor);
-        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
-                           "`%s` needs a number here: its %s height", block_word(block), what);
+        return block_fault(block, DIAG_E0253, block_here(block), "`%s` needs a number here: its %s height",
+                           block_word(block), what);
     }
     if (!cursor_number(&block->cursor, height, &span) || !block_finite(block, *height, span, what)) {
         return false;

@@ -237,9 +237,8 @@ static bool polynomial_close(Block *block)
     unsigned order = (unsigned)polynomial->order, needed = polynomial_count(order);
     bool is_quadric = block->is == KIND_QUADRIC;
     if (!is_quadric && polynomial->coefficients.count != needed) {
-        return block_fault(block, DIAG_E0480, block->node->span,
-                           "a polynomial of order %u has %u coefficients, not %u", order, needed,
-                           (unsigned)polynomial->coefficients.count);
+        return block_fault(block, DIAG_E0480, block->node->span, "a polynomial of order %u has %u coefficients, not %u",
+                           order, needed, (unsigned)polynomial->coefficients.count);
     }
     double *list = arena_alloc_array(block->arena, polynomial_list_count(order), sizeof *list);
     if (!list) {
@@ -261,7 +260,8 @@ static const char *polynomial_form(const void *object, Part *part)
 {
     const PolynomialDesc *polynomial = object;
     polynomial_part(&polynomial->list, part);
-    return polynomial_is_constant(polynomial->list.items) ? "a polynomial that is the same everywhere is not drawn" : NULL;
+    return polynomial_is_constant(polynomial->list.items) ? "a polynomial that is the same everywhere is not drawn"
+                                                          : NULL;
 }
 
 // Where the squares have one sign and there are no products; a quadric that is turned has no end. Measured.

@@ -28,8 +28,7 @@ static bool read_string(Block *block, const char *what, Value *string, Span *spa
 {
     const AstNode *item = cursor_peek(&block->cursor);
     if (!item || !cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
-                           "`text` needs a string here: %s", what);
+        return block_fault(block, DIAG_E0253, block_here(block), "`text` needs a string here: %s", what);
     }
     *span = item->span;
     bool is_string = cursor_lacks_comma(&block->cursor, "front of this string") && eval_string(block->ev, item, string);
@@ -47,8 +46,7 @@ static bool read_internal(Block *block, TextHead *head)
     cursor_skip(&block->cursor);
     const AstNode *item = cursor_peek(&block->cursor);
     if (!item || !cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
-                           "`internal` needs a number after it");
+        return block_fault(block, DIAG_E0253, block_here(block), "`internal` needs a number after it");
     }
     if (!cursor_number(&block->cursor, &number, &head->font_span)) {
         return false;
@@ -67,8 +65,7 @@ static bool read_font(Block *block, TextHead *head)
         return read_internal(block, head);
     }
     if (!cursor_at_word(&block->cursor, W_ttf)) {
-        const AstNode *item = cursor_peek(&block->cursor);
-        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
+        return block_fault(block, DIAG_E0253, block_here(block),
                            "`text` begins with `ttf` and the name of a font, or `internal` and a number");
     }
     cursor_skip(&block->cursor);
@@ -92,10 +89,8 @@ static bool read_head(Block *block, TextHead *head)
         return false;
     }
     cursor_take_comma(&block->cursor);
-    const AstNode *item = cursor_peek(&block->cursor);
-    if (!item || !cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
-                           "`text` needs a number here: how thick it is");
+    if (!cursor_at_value(&block->cursor)) {
+        return block_fault(block, DIAG_E0253, block_here(block), "`text` needs a number here: how thick it is");
     }
     if (!cursor_number(&block->cursor, &head->thickness, &span) ||
         !block_finite(block, head->thickness, span, "thickness")) {
@@ -105,9 +100,8 @@ static bool read_head(Block *block, TextHead *head)
         return block_fault(block, DIAG_E0341, span, "a text must be thicker than 0, not %g", head->thickness);
     }
     cursor_take_comma(&block->cursor);
-    item = cursor_peek(&block->cursor);
-    if (!item || !cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, item ? item->span : cursor_end(&block->cursor),
+    if (!cursor_at_value(&block->cursor)) {
+        return block_fault(block, DIAG_E0253, block_here(block),
                            "`text` needs a vector here: how much farther each letter stands; 0 for none");
     }
     return cursor_vector3(&block->cursor, &head->offset, &span) &&

@@ -321,8 +321,8 @@ static bool read_tile(Block *block, Cursor *cursor, Span span, const TextureDesc
         }
         cursor_skip(cursor);
     }
-    return *texture || block_fault(block, DIAG_E0253, item ? item->span : span,
-                                   "`tiles` needs textures before and after `tile2`");
+    return *texture ||
+           block_fault(block, DIAG_E0253, item ? item->span : span, "`tiles` needs textures before and after `tile2`");
 }
 
 static bool read_tiles(Block *block, Cursor *cursor, Span span, PatternEntry *entries)

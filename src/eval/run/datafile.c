@@ -317,7 +317,8 @@ static void run_open(Eval *ev, const AstNode *node)
     Value value = {.kind = VALUE_FILE};
     bool reads = node->symbol == W_read, appends = node->symbol == W_append;
     if (!reads && !appends && node->symbol != W_write) {
-        eval_fault(ev, DIAG_E0106, node->span, "`#fopen` wants `read`, `write` or `append` after the file's name, found `%s`",
+        eval_fault(ev, DIAG_E0106, node->span,
+                   "`#fopen` wants `read`, `write` or `append` after the file's name, found `%s`",
                    eval_text(ev, node->symbol));
         return;
     }
@@ -327,8 +328,8 @@ static void run_open(Eval *ev, const AstNode *node)
                    eval_text(ev, node->a->symbol), value_describe(known));
         return;
     }
-    bool is_open = reads ? data_open(ev, node, &value.file)
-                         : written_open(ev, node->b, appends, node->span, &value.written);
+    bool is_open =
+        reads ? data_open(ev, node, &value.file) : written_open(ev, node->b, appends, node->span, &value.written);
     if (!is_open) {
         ev->file_is_missing = true;
         return;

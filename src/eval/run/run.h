@@ -302,8 +302,8 @@ const char *file_folder(const Eval *ev, size_t i);
 // Whether there is such a file. False when it may not be asked for; that is reported.
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MUST_CHECK;
 
-// Where a file of that name is to be written, all links resolved, in `real` of PATH_MAX bytes. False when it may not be;
-// that is reported.
+// Where a file of that name is to be written, all links resolved, in `real` of PATH_MAX bytes. False when it may not
+// be; that is reported.
 bool file_may_write(Eval *ev, const char *name, Span span, char *real) RT_MUST_CHECK;
 
 // The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a

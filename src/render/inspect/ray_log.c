@@ -128,7 +128,8 @@ static void follow_part(Follower *follower, LoggedRay *ray, const StackedRay *no
     const Solid *solid = &follower->p->geometry->shapes.solids[index];
     uint64_t source = follower->p->scene->parts.items[index].source;
     bool is_cut = solid->node != NODE_NONE, is_round = part_map_is_round(solid->to_world.m);
-    bool is_start = !is_cut && starts_on_part(now->start) && table_part(&follower->p->geometry->shapes, now->start.shape) == index;
+    bool is_start =
+        !is_cut && starts_on_part(now->start) && table_part(&follower->p->geometry->shapes, now->start.shape) == index;
     double radius = fabs(solid->to_world.m[0][0]);
     SphereData ball = is_round ? (SphereData){solid->centre, radius * radius} : UNIT_SPHERE;
     StartSphere on = {0, now->start.inward != solid->flips,

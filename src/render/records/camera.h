@@ -1,8 +1,10 @@
 // Camera rays: from the eye through screenCenter + x screenU + y screenV.
 //
 // Cameras that are wider have rays of their own, with u across and v upright, |R| and |U| the lengths of `right` and
-// `up`, r, u^ and d unit vectors along `right`, `up` and `direction`, A the angle; all measured beside POV-Ray:
-//   fisheye:           at the angle A sqrt((u |R|)² + (v |U|)²) to d, where the root is at most 1/2, turned as (u |R|, v |U|)
+// `up`, r, u^ and d unit vectors along `right`, `up` and `direction`, A the angle; all as measured in POV-Ray's
+// pictures:
+//   fisheye:           at the angle A sqrt((u |R|)² + (v |U|)²) to d, where the root is at most 1/2, turned as
+//                      (u |R|, v |U|)
 //   ultra wide angle:  sin(u A) r + sin(v A |U| / |R|) u^ + cos(u A) cos(v A |U| / |R|) d
 //   panoramic:         sin(pi u) right + tan(pi v) up + cos(pi u) direction
 //   omnimax:           as a fisheye, at the angle 1.411269 R - 0.09439 R³ + 0.25674 R⁵, R being the distance from the
@@ -11,7 +13,8 @@
 //   cylinder 1:        sin(u A) r + v |U| u^ + cos(u A) d
 //   cylinder 2:        u |R| r + sin(v A) u^ + cos(v A) d
 //   cylinder 3:        sin(u A) r + cos(u A) d, from v up;   cylinder 4: sin(v A) u^ + cos(v A) d, from u right
-//   spherical:         d turned about r by -v times the upright angle, then about u^ by u A, each from y to z, z to x, x to y
+//   spherical:         d turned about r by -v times the upright angle, then about u^ by u A, each from y to z, z to x,
+//                      x to y
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_RECORDS_CAMERA_H

@@ -36,7 +36,7 @@ static inline bool stop_is_wanted(const SamplingStop *stop)
     return stop->variance > 0.0;
 }
 
-// Several rays a pixel; docs/sampling.md tells of the method.
+// Several rays a pixel; docs/sampling.md describes the method.
 typedef struct SamplingOptions {
     SamplerKind sampler;
     FilterKind filter;
@@ -47,7 +47,7 @@ typedef struct SamplingOptions {
     double time_limit;   // seconds; 0: none
     bool has_no_estimate; // the same picture without its error
     SamplingStop stop;    // of pixels; not with is_adaptive
-    bool no_pixel_errors; // render_pixel_error is not asked for: of a large picture some pixels tell of the error
+    bool no_pixel_errors; // render_pixel_error is not asked for: of a large picture some pixels are enough
 } SamplingOptions;
 
 // POV-Ray's ways to take more rays where colours differ; see render/sample/antialias.h.

@@ -33,8 +33,8 @@ typedef struct TileShare {
     int (*next)(void *client);
     // What a tile left that was traced here. Called by any thread.
     void (*give)(void *client, int tile, const unsigned char *bytes, size_t length);
-    // Runs beside the threads that trace, in the one that called tiles_run, until `end` may be called; tells now and
-    // then how many tiles are done. `stops` turns true when the work is to stop.
+    // Runs in the thread that called tiles_run, while others trace, until `end` may be called; calls `done` now and
+    // then with how many tiles are done. `stops` turns true when the work is to stop.
     void (*serve)(void *client, void (*done)(void *run, int tiles), bool (*stops)(void *run), void *run);
     // The threads are done. Hands over what other processes traced.
     TileShareResult (*end)(void *client, bool is_stopped, TileTake *take, void *run);

@@ -80,7 +80,8 @@ RT_ALWAYS_INLINE double shade_mirror_weight(unsigned features, const PreparedFin
 }
 
 // What a layer's mirror leaves of the light of the layers below.
-RT_ALWAYS_INLINE Rgb shade_left_below(const Prepared *p, unsigned features, const ShadeMaterial *material, const ShadingPoint *at)
+RT_ALWAYS_INLINE Rgb shade_left_below(const Prepared *p, unsigned features, const ShadeMaterial *material,
+                                      const ShadingPoint *at)
 {
     Rgb reflectance;
     return material->finish->conserves_energy && shade_mirror(p, features, material, at, &reflectance)
@@ -89,8 +90,8 @@ RT_ALWAYS_INLINE Rgb shade_left_below(const Prepared *p, unsigned features, cons
 }
 
 // What a surface's mirror sends on.
-RT_ALWAYS_INLINE void shade_set_mirror(const Prepared *p, unsigned features, const ShadeMaterial *material, const ShadingPoint *at,
-                                       ScatterRecord *scatter)
+RT_ALWAYS_INLINE void shade_set_mirror(const Prepared *p, unsigned features, const ShadeMaterial *material,
+                                       const ShadingPoint *at, ScatterRecord *scatter)
 {
     if (shade_mirror(p, features, material, at, &scatter->reflectance)) {
         scatter->reflection_weight = shade_mirror_weight(features, material->finish, scatter->reflectance);

@@ -99,8 +99,8 @@ static double turbulent_share(const Prepared *p, const Fog *fog, const Ray *ray,
     Octaves octaves = {fog->lambda, fog->omega, (unsigned)fog->octaves};
     Vec3 start = vec3_sub(vec3_scale(p->textures.scale, ray->origin), fog->origin);
     Vec3 middle = vec3_add_scaled(start, way / 2.0, ray->direction);
-    double sum = noise_sum(p->textures.source.noise, p->textures.source.generator, &octaves,
-                           vec3_mul(fog->turbulence, middle));
+    double sum =
+        noise_sum(p->textures.source.noise, p->textures.source.generator, &octaves, vec3_mul(fog->turbulence, middle));
     return exp(-way / fog->distance) * less_of(fog->turb_depth * sum, 1.0);
 }
 

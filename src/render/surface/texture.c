@@ -146,8 +146,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     table->images = images_new(scene);
     table->warp_back = malloc((scene->warps.count + 1) * sizeof *table->warp_back);
     if (!find_lists(table, scene) || !table->to_pattern || !table->opaque || !table->texture_to_pattern ||
-        !table->normal_to_pattern || !table->images || !table->warp_back ||
-        !find_noise(table, scene, noise, isa)) {
+        !table->normal_to_pattern || !table->images || !table->warp_back || !find_noise(table, scene, noise, isa)) {
         texture_table_fini(table);
         return false;
     }

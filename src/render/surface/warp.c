@@ -1,7 +1,7 @@
 // Warps, one small function for each, in a table.
 //
-// Turns a point into another one; owns constant data only. The formulas were found beside POV-Ray; docs/language.md,
-// "Patterns".
+// Turns a point into another one; owns constant data only. The formulas were fitted to what POV-Ray draws;
+// docs/language.md, "Patterns".
 //
 // SPDX-License-Identifier: MIT
 #include "render/surface/warp.h"
