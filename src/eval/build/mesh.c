@@ -321,6 +321,9 @@ static bool read_uvs(MeshReader *reader, const AstNode *node)
 // Cut towards zero, as POV-Ray does.
 static bool to_indices(ListReader *list, const double v[3], size_t count, const char *of, uint32_t indices[3])
 {
+    if (RT_UNLIKELY(count == 0)) { // of which -0.5, cut, would be one
+        return eval_fault(list->ev, DIAG_E0473, list_span(list), "there are no %s: %g is none of them", of, v[0]);
+    }
     for (int i = 0; i < 3; i++) {
         if (RT_UNLIKELY(!(v[i] > -1.0 && v[i] < (double)count))) {
             return eval_fault(list->ev, DIAG_E0473, list_span(list), "there are %zu %s, 0 to %zu: %g is none of them",
@@ -609,6 +612,20 @@ static bool read_lists(MeshReader *reader)
     return is_read[4] || order_fault(reader, NULL, is_read[0] ? 3 : 1);
 }
 
+// Faces behind the last one that has normals are flat.
+static bool settle_face_normals(MeshReader *reader)
+{
+    Growing *normals = &reader->face_normals;
+    while (normals->count > 0 && normals->count < reader->faces.count) {
+        if (!grows(reader, normals, reader->faces.count)) {
+            return false;
+        }
+        uint32_t *indices = ((uint32_t(*)[3])normals->items)[normals->count++];
+        indices[0] = indices[1] = indices[2] = MESH_FLAT;
+    }
+    return true;
+}
+
 // Without indices of their own, normals are those of the vertices.
 static bool settle_normals(MeshReader *reader)
 {
@@ -622,13 +639,6 @@ static bool settle_normals(MeshReader *reader)
         }
         mesh->face_normals = mesh->faces;
         return true;
-    }
-    while (reader->face_normals.count > 0 && reader->face_normals.count < reader->faces.count) {
-        if (!grows(reader, &reader->face_normals, reader->faces.count)) {
-            return false;
-        }
-        uint32_t *indices = ((uint32_t(*)[3])reader->face_normals.items)[reader->face_normals.count++];
-        indices[0] = indices[1] = indices[2] = MESH_FLAT;
     }
     mesh->face_normals = trim(&reader->face_normals);
     return true;
@@ -704,11 +714,11 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
 {
     Block *block = reader->block;
     Mesh *mesh = reader->mesh;
-    is_fine = is_fine && settle_face_textures(reader);
+    is_fine = is_fine && settle_face_textures(reader) && settle_face_normals(reader);
     mesh->vertices = trim(&reader->vertices);
     mesh->normals = trim(&reader->normals);
     mesh->faces = trim(&reader->faces);
-    mesh->face_textures = reader->face_textures.count > 0 ? trim(&reader->face_textures) : NULL;
+    mesh->face_textures = trim(&reader->face_textures);
     mesh->vertex_count = (uint32_t)reader->vertices.count;
     mesh->normal_count = (uint32_t)reader->normals.count;
     mesh->face_count = (uint32_t)reader->faces.count;
@@ -773,10 +783,14 @@ static bool add_normal(MeshReader *reader, double v[3], Span span)
         return false;
     }
     normalise(reader->block->ev, v, span);
-    float *normal = ((float(*)[3])reader->normals.items)[reader->normals.count++];
+    float *normal = ((float(*)[3])reader->normals.items)[reader->normals.count];
     for (int i = 0; i < 3; i++) {
         normal[i] = (float)v[i];
+        if (!isfinite(normal[i])) {
+            return block_fault(reader->block, DIAG_E0472, span, "a normal of a mesh must be finite");
+        }
     }
+    reader->normals.count++;
     return true;
 }
 
@@ -841,6 +855,7 @@ static bool read_triangle_end(MeshReader *reader, Cursor *cursor, uint32_t *text
                 "a triangle of a mesh has nothing but its corners, uv_vectors and the name of a texture");
         }
         cursor_skip(cursor);
+        reader->corner_count -= is_texture && (*texture & FACE_OF_CORNERS); // it has another one now
         if (is_texture && !read_triangle_texture(reader, item, texture)) {
             return false;
         }
