@@ -222,6 +222,22 @@ def test_ends(name, text, slow):
            "exit %d after %.1f s with %d MiB\n%s" % (code, seconds, peak >> 20, said[:400]))
 
 
+def mesh_text(count):
+    """A mesh of which the first face alone has normals."""
+    places = ",".join("<%d,%d,%d>" % (i % 200, i // 200, i % 7) for i in range(count))
+    faces = ",".join("<%d,%d,%d>" % (i, (i + 1) % count, (i + 200) % count) for i in range(count))
+    return HEAD + "mesh2 { vertex_vectors { %d, %s } normal_vectors { 2, z, y } face_indices { %d, %s } " \
+        "normal_indices { 1, <0, 1, 0> } pigment { rgb 1 } }\n" % (count, places, count, faces)
+
+
+def test_memory_ends():
+    write("mesh.scn", mesh_text(40000))
+    outcomes = {kib: run("--check", "-q", "--max-memory=%dK" % kib, "mesh.scn") for kib in range(3000, 4800, 75)}
+    codes = {outcome[0] for outcome in outcomes.values()}
+    tap.ok(codes == {0, 4}, "a mesh for which there is not enough memory, at any place",
+           ", ".join("%d KiB: exit %d" % (kib, outcome[0]) for kib, outcome in outcomes.items()))
+
+
 LONG = {
     "evaluation": (forever(""), ["--check", "--max-steps=1000000000000"]),
     "functions": ("#declare F0 = function (x) { x }\n" +
@@ -287,6 +303,7 @@ def main():
         print("# slowness %.2f" % slow)
         for name, text in SCENES.items():
             test_ends(name, text, slow)
+        test_memory_ends()
         write("ball.scn", HEAD + BALL)
         run("-q", "-W9000", "-H7000", "-o", "large.png", "ball.scn")
         for name, scene in LONG.items():
