@@ -786,7 +786,7 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
     }
     traversal_order(&p);
     while (!p.is_over) {
-        if (!(p.reached >= (p.count > 0 ? crossings[0].t : (double)INFINITY))) {
+        if (p.reached < (p.count > 0 ? crossings[0].t : (double)INFINITY)) { // not where that is NaN
             traversal_reach(&p, start, (double)INFINITY);
             traversal_order(&p);
             continue;

@@ -132,6 +132,11 @@ SCENES = {
     "a mesh of the greatest and the least numbers": HEAD +
         "mesh { triangle { -3e38, <3e38, 0, 1>, <0, 3e38, 1> } triangle { 0, 1e-44*x, 1e-44*y }\n"
         "smooth_triangle { 0, 1e300*x, x, 1e-160*y, y, 1e-300*z } inside_vector 1e300*y }\n",
+    "a mesh in a composite that is as thin as can be": "camera { location -3*z look_at 0 } light_source { -4*z, 1 }\n"
+        "merge { mesh { triangle { <0, 0.9, 0>, <0.8, 0, 0>, <0, 0, 0.8> }\n"
+        "triangle { <0, 0.9, 0>, <0, 0, 0.8>, <-0.8, 0, 0> } triangle { <0, 0.9, 0>, <-0.8, 0, 0>, <0.8, 0, 0> }\n"
+        "triangle { <0.8, 0, 0>, <0, 0, 0.8>, <-0.8, 0, 0> } inside_vector y scale <1e-308, 1e-300, 1> }\n"
+        "sphere { 0, 1 } pigment { rgbt 0.5 } }\n",
     "clips in clips": doubled("sphere { 0, 1 }", "object { T clipped_by { object { T } } }", "object { T }"),
     # light and surfaces
     "textures that double": doubled("texture { pigment { rgb 1 } }",
