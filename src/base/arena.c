@@ -1,7 +1,7 @@
 // Arena: hands out memory from chunks that grow with the arena, and frees them back to a mark.
 //
 // Owns its chunks, linked from the newest to the oldest. The chunk that a rewind keeps hangs on the chunk that is
-// then the newest. Knows nothing of what is stored.
+// then the newest. Built with AddressSanitizer, all that is not handed out is hidden. Knows nothing of what is stored.
 //
 // SPDX-License-Identifier: MIT
 #include "base/arena.h"
@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hidden.h"
 #include "base/pages.h"
 
 enum { ALIGNMENT = 16 };
@@ -51,6 +52,7 @@ static void arena_use_chunk(Arena *arena, ArenaChunk *chunk, ArenaChunk *older)
     arena->chunk = chunk;
     arena->next = chunk_begin(chunk);
     arena->end = (char *)chunk + chunk->size;
+    hidden_put(arena->next, (size_t)(arena->end - arena->next));
 }
 
 static size_t bytes_left(const Arena *arena)
@@ -152,6 +154,7 @@ void *arena_alloc(Arena *arena, size_t size)
     }
     char *bytes = arena->next;
     arena->next += rounded;
+    hidden_take(bytes, size);
     return bytes;
 }
 
@@ -206,8 +209,11 @@ void arena_rewind(Arena *arena, ArenaMark mark)
         }
     }
     if (mark.chunk) {
+        char *end = (char *)mark.chunk + mark.chunk->size;
+        const char *used = arena->end == end ? arena->next : end;
+        hidden_put(mark.next, (size_t)(used - mark.next));
         arena->next = mark.next;
-        arena->end = (char *)mark.chunk + mark.chunk->size;
+        arena->end = end;
         if (kept) {
             mark.chunk->spare = kept;
         }

@@ -17,7 +17,12 @@
 #include "scene/primitive.h"
 #include "scene/range.h"
 
-enum { AHEAD = 32, KEY_NUMBERS = 18, KIND_SPHERE_KEY = PART_KINDS };
+// A key has room for a transform and all that a part's data[] may hold.
+enum {
+    AHEAD = 32,
+    KEY_NUMBERS = (sizeof(Transform) + sizeof((Part){0}.data)) / sizeof(double),
+    KIND_SPHERE_KEY = PART_KINDS
+};
 
 __extension__ typedef unsigned __int128 Wide;
 

@@ -297,14 +297,17 @@ static bool traversal_refill(CsgTraversal *p, uint32_t *begin, uint32_t *end)
     if (*end == p->csg->crossing_count) {
         return false;
     }
-    memmove(&p->crossings[*begin + 1], &p->crossings[*begin], (*end - *begin) * sizeof *p->crossings);
-    uint32_t before = p->count;
+    Crossing *taken = &p->crossings[*begin];
+    uint32_t before = p->count, taken_count = *end - *begin;
+    memmove(taken + 1, taken, taken_count * sizeof *taken);
     traversal_next_face(p, index);
-    if (p->count > before) {
-        double bound = p->crossings[before].bound;
-        p->greatest_bound = p->greatest_bound >= 0.0 && bound > p->greatest_bound ? bound : p->greatest_bound;
-        heap_push(p);
+    if (p->count == before) { // no hole stays among those that were taken
+        memmove(taken, taken + 1, taken_count * sizeof *taken);
+        return true;
     }
+    double bound = taken->bound;
+    p->greatest_bound = p->greatest_bound >= 0.0 && bound > p->greatest_bound ? bound : p->greatest_bound;
+    heap_push(p);
     ++*begin;
     ++*end;
     return true;
@@ -315,7 +318,7 @@ RT_ALWAYS_INLINE void traversal_follow(CsgTraversal *p, RayStart start, bool ask
                                        Foremost *first)
 {
     while (!p->is_over) {
-        if (!(p->reached >= (p->count > 0 ? p->crossings[0].t : (double)INFINITY))) {
+        if (p->reached < (p->count > 0 ? p->crossings[0].t : (double)INFINITY)) { // not where that is NaN
             traversal_reach(p, start, (double)INFINITY);
             traversal_order(p);
             continue;

@@ -127,19 +127,28 @@ void roots_start(Polynomial *p)
     p->has_levels = false; // those that there are may be of another degree
 }
 
-// Fujiwara's bound of all roots, as a power of two; those of derivatives lie within it, too (Gauss, Lucas).
+// The exponent of a number, of 0 one below all others, and of what is not finite one above them.
+static int exponent_of(double x)
+{
+    enum { LEAST = -1075, GREATEST = 1024 };
+    return x == 0.0 ? LEAST : isfinite(x) ? ilogb(x) : GREATEST;
+}
+
+// Fujiwara's bound of all roots, as a power of two; those of derivatives lie within it, too (Gauss, Lucas). What is
+// farther than numbers can tell apart is no place.
 static double outer_bound(const Polynomial *p)
 {
-    const int none = -1000;
-    int lead = ilogb(p->terms[p->degree]), most = none;
+    enum { NONE = -4000, FARTHEST = 1000 };
+    int lead = exponent_of(p->terms[p->degree]), most = NONE;
     for (unsigned i = 0; i < p->degree; i++) {
         if (p->terms[i] != 0.0) {
-            int below = (int)(p->degree - i), rise = ilogb(p->terms[i]) + 1 - lead;
+            int below = (int)(p->degree - i), rise = exponent_of(p->terms[i]) + 1 - lead;
             int share = rise > 0 ? (rise + below - 1) / below : rise / below;
             most = share > most ? share : most;
         }
     }
-    return most == none ? 1.0 : ldexp(1.0, most + 2);
+    most = most > FARTHEST ? FARTHEST : most;
+    return most == NONE ? 1.0 : ldexp(1.0, most + 2);
 }
 
 // The value of a level and its slope; of double words, once there are some.

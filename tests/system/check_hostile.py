@@ -119,6 +119,26 @@ SCENES = {
     "a hundred thousand spheres around one point": HEAD + "#for (I, 1, 100000) sphere { 0, I/1000 } #end\n",
     "coordinates as large as can be": HEAD + "sphere { 1e300, 1e300 } sphere { <1e307, 1, 1>, 1e-300 }\n",
     "a cone that ends in nothing": HEAD + "cone { 0, 1e-320, y*1e-320, 0 } cylinder { 0, 1e-310*y, 1e300 }\n",
+    "quadrics of the greatest and the least numbers": HEAD + "".join(
+        "quadric { <1, %s, 3>, <1, 0.5, -1>, <%s, 1, 0>, %s rotate 20 pigment { rgb 1 } }\n" % numbers
+        for numbers in (("1", "1.79e308", "-0.7"), ("1e308", "1", "5e-324"), ("-1e-300", "0", "-1e300"))),
+    "polynomials of the greatest and the least numbers": HEAD + "".join(
+        "poly { 4, <1, %s> rotate 20 pigment { rgb 1 } }\n" % ", ".join(["0"] * 15 + ["1.7e308", number] * 9 + ["-1"])
+        for number in ("1", "-1.7e308", "5e-324")),
+    "blobs of the greatest and the least numbers": HEAD + "".join(
+        "blob { threshold %s sphere { 0, 1, %s } cylinder { 0, y, 1, -%s } pigment { rgb 1 } }\n" % (few, much, few)
+        for few, much in (("1e-300", "1e308"), ("1e-320", "1e-310"), ("1e300", "1.7e308"))),
+    "prisms of the greatest and the least numbers": HEAD + "".join(
+        "prism { %s %s, 1, 4, <-%s, 0>, <%s, 1>, <0, %s>, <-%s, 0> pigment { rgb 1 } }\n" % (words, low, *[size] * 4)
+        for words in ("linear_sweep", "conic_sweep") for low in ("0", "-1e3") for size in ("1e300", "1e-9")),
+    "a mesh of the greatest and the least numbers": HEAD +
+        "mesh { triangle { -3e38, <3e38, 0, 1>, <0, 3e38, 1> } triangle { 0, 1e-44*x, 1e-44*y }\n"
+        "smooth_triangle { 0, 1e300*x, x, 1e-160*y, y, 1e-300*z } inside_vector 1e300*y }\n",
+    "a mesh in a composite that is as thin as can be": "camera { location -3*z look_at 0 } light_source { -4*z, 1 }\n"
+        "merge { mesh { triangle { <0, 0.9, 0>, <0.8, 0, 0>, <0, 0, 0.8> }\n"
+        "triangle { <0, 0.9, 0>, <0, 0, 0.8>, <-0.8, 0, 0> } triangle { <0, 0.9, 0>, <-0.8, 0, 0>, <0.8, 0, 0> }\n"
+        "triangle { <0.8, 0, 0>, <0, 0, 0.8>, <-0.8, 0, 0> } inside_vector y scale <1e-308, 1e-300, 1> }\n"
+        "sphere { 0, 1 } pigment { rgbt 0.5 } }\n",
     "clips in clips": doubled("sphere { 0, 1 }", "object { T clipped_by { object { T } } }", "object { T }"),
     # light and surfaces
     "textures that double": doubled("texture { pigment { rgb 1 } }",
@@ -209,6 +229,22 @@ def test_ends(name, text, slow):
            "exit %d after %.1f s with %d MiB\n%s" % (code, seconds, peak >> 20, said[:400]))
 
 
+def mesh_text(count):
+    """A mesh of which the first face alone has normals."""
+    places = ",".join("<%d,%d,%d>" % (i % 200, i // 200, i % 7) for i in range(count))
+    faces = ",".join("<%d,%d,%d>" % (i, (i + 1) % count, (i + 200) % count) for i in range(count))
+    return HEAD + "mesh2 { vertex_vectors { %d, %s } normal_vectors { 2, z, y } face_indices { %d, %s } " \
+        "normal_indices { 1, <0, 1, 0> } pigment { rgb 1 } }\n" % (count, places, count, faces)
+
+
+def test_memory_ends():
+    write("mesh.scn", mesh_text(40000))
+    outcomes = {kib: run("--check", "-q", "--max-memory=%dK" % kib, "mesh.scn") for kib in range(3000, 4800, 75)}
+    codes = {outcome[0] for outcome in outcomes.values()}
+    tap.ok(codes == {0, 4}, "a mesh for which there is not enough memory, at any place",
+           ", ".join("%d KiB: exit %d" % (kib, outcome[0]) for kib, outcome in outcomes.items()))
+
+
 LONG = {
     "evaluation": (forever(""), ["--check", "--max-steps=1000000000000"]),
     "functions": ("#declare F0 = function (x) { x }\n" +
@@ -274,6 +310,7 @@ def main():
         print("# slowness %.2f" % slow)
         for name, text in SCENES.items():
             test_ends(name, text, slow)
+        test_memory_ends()
         write("ball.scn", HEAD + BALL)
         run("-q", "-W9000", "-H7000", "-o", "large.png", "ball.scn")
         for name, scene in LONG.items():

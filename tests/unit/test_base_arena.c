@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/array.h"
+#include "base/hidden.h"
 #include "base/pages.h"
 #include "unit/tap.h"
 
@@ -214,8 +215,36 @@ static void test_pages(size_t bytes, size_t kept)
     tap_ok(!pages_take(&pages, SIZE_MAX) && !pages_take(&pages, SIZE_MAX / 2), "too many are refused");
 }
 
+#if HIDDEN_IS_ON
+static bool is_hidden(const char *byte)
+{
+    return __asan_address_is_poisoned(byte);
+}
+
+static void test_hidden(void)
+{
+    Arena arena;
+    arena_init(&arena, SIZE_MAX);
+    char *first = arena_alloc(&arena, 24);
+    ArenaMark mark = arena_mark(&arena);
+    char *second = arena_alloc(&arena, 3), *third = arena_alloc(&arena, (size_t)300 * KIB);
+    tap_ok(first && second && third && !is_hidden(first) && !is_hidden(first + 23) && !is_hidden(second) &&
+               !is_hidden(second + 2) && !is_hidden(third + (size_t)300 * KIB - 1),
+           "what is handed out is not hidden");
+    tap_ok(is_hidden(first + 24) && is_hidden(second + 3), "what is between is");
+    arena_rewind(&arena, mark);
+    tap_ok(!is_hidden(first + 23) && is_hidden(second), "what is given back is");
+    char *again = arena_alloc(&arena, 2);
+    tap_ok(again == second && !is_hidden(again + 1) && is_hidden(again + 2), "until it is handed out again");
+    arena_fini(&arena);
+}
+#endif
+
 int main(void)
 {
+#if HIDDEN_IS_ON
+    test_hidden();
+#endif
     test_pieces_are_apart();
     test_growth();
     test_budget();

@@ -3,7 +3,7 @@
 //
 // Shapes with a surface in common are put elsewhere by a random turn and move, two at a time and in both orders. The
 // picture of the first and the second, with lights and mirrors, has to be the first one's alone, bit for bit. Nor does
-// what a light stands on throw a shadow above it.
+// what a light stands on throw a shadow above it. A mesh that has its faces on those of other shapes is as a box there.
 //
 // SPDX-License-Identifier: MIT
 #include <stdio.h>
@@ -180,6 +180,39 @@ static void test_lit(const char *shape, const char *pigment, const char places[P
            PLACES * WIDTH * HEIGHT);
 }
 
+// ---- a mesh in the place of a box
+
+#define CUBE_MESH                                                                                                      \
+    "mesh2 { vertex_vectors { 8, 0, x, x + y, y, z, x + z, 1, y + z }"                                                 \
+    " face_indices { 12, <0, 1, 2>, <0, 2, 3>, <4, 5, 6>, <4, 6, 7>, <0, 1, 5>, <0, 5, 4>, <3, 2, 6>, <3, 6, 7>,"      \
+    " <0, 3, 7>, <0, 7, 4>, <1, 2, 6>, <1, 6, 5> } inside_vector <0.3, 1, 0.2> }"
+
+// With other shapes that have faces on those of the cube.
+static bool draw_joined(const char *eye, const char *pattern, const char *cube, float *values)
+{
+    char text[2048], joined[1024];
+    snprintf(joined, sizeof joined, pattern, cube);
+    int length = snprintf(text, sizeof text,
+                          "#version 3.7; global_settings { assumed_gamma 1 }\n"
+                          "camera { location %s look_at <1, 0.5, 0.4> angle 40 } background { rgb <0.2, 0.3, 0.5> }\n"
+                          "%s pigment { rgbt <1, 0.5, 0.2, 0.5> } finish { ambient 1 diffuse 0 } }\n",
+                          eye, joined);
+    return draw_text(text, length, values);
+}
+
+static void test_joined(const char *pattern)
+{
+    static const char *const eyes[] = {"<-3, 0.7, 0.45>", "<-2, 2.2, -2.7>", "<5, 1.1, 0.3>"};
+    static float meshes[VALUES], boxes[VALUES];
+    int off = 0;
+    for (size_t i = 0; i < RT_COUNT_OF(eyes); i++) {
+        off += draw_joined(eyes[i], pattern, CUBE_MESH, meshes) && draw_joined(eyes[i], pattern, "box { 0, 1 }", boxes)
+                   ? pixels_off(meshes, boxes)
+                   : WIDTH * HEIGHT;
+    }
+    tap_ok(off == 0, "a mesh as a box in `%s`: %d pixels are off", pattern, off);
+}
+
 int main(int argc, char **argv)
 {
     Random random = {random_seed(argc > 1 ? argv[1] : NULL)};
@@ -199,5 +232,10 @@ int main(int argc, char **argv)
         test_lit(below[i], "pigment { rgb 1 }", (const char(*)[PLACE_MOST])places);
         test_lit(below[i], "pigment { rgbt 0.5 }", (const char(*)[PLACE_MOST])places);
     }
+    test_joined("merge { %s box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> }");
+    test_joined("merge { box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> } %s");
+    test_joined("difference { box { <-0.5, -0.5, -0.5>, <1, 1.5, 1.5> } %s");
+    test_joined("difference { %s box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> }");
+    test_joined("intersection { %s box { <0.5, 0.1, -0.2>, <1, 1.3, 0.8> }");
     return tap_done();
 }

@@ -24,10 +24,14 @@ static bool add_normal(MeshReader *reader, double v[3], Span span)
         return false;
     }
     mesh_normalise(reader->block->ev, v, span);
-    float *normal = ((float(*)[3])reader->normals.items)[reader->normals.count++];
+    float *normal = ((float(*)[3])reader->normals.items)[reader->normals.count];
     for (int i = 0; i < 3; i++) {
         normal[i] = (float)v[i];
+        if (!isfinite(normal[i])) {
+            return block_fault(reader->block, DIAG_E0472, span, "a normal of a mesh must be finite");
+        }
     }
+    reader->normals.count++;
     return true;
 }
 
@@ -92,6 +96,7 @@ static bool read_triangle_end(MeshReader *reader, Cursor *cursor, uint32_t *text
                 "a triangle of a mesh has nothing but its corners, uv_vectors and the name of a texture");
         }
         cursor_skip(cursor);
+        reader->corner_count -= is_texture && (*texture & FACE_OF_CORNERS); // it has another one now
         if (is_texture && !read_triangle_texture(reader, item, texture)) {
             return false;
         }

@@ -157,6 +157,20 @@ bool mesh_reader_join_corners(MeshReader *reader, const uint32_t indices[3], uin
 
 // ---- the record
 
+// Faces behind the last one that has normals are flat.
+static bool settle_face_normals(MeshReader *reader)
+{
+    MeshArray *normals = &reader->face_normals;
+    while (normals->count > 0 && normals->count < reader->faces.count) {
+        if (!mesh_reader_has_room(reader, normals, reader->faces.count)) {
+            return false;
+        }
+        uint32_t *indices = ((uint32_t(*)[3])normals->items)[normals->count++];
+        indices[0] = indices[1] = indices[2] = MESH_FLAT;
+    }
+    return true;
+}
+
 // Without indices of their own, normals are those of the vertices.
 static bool settle_normals(MeshReader *reader)
 {
@@ -170,13 +184,6 @@ static bool settle_normals(MeshReader *reader)
         }
         mesh->face_normals = mesh->faces;
         return true;
-    }
-    while (reader->face_normals.count > 0 && reader->face_normals.count < reader->faces.count) {
-        if (!mesh_reader_has_room(reader, &reader->face_normals, reader->faces.count)) {
-            return false;
-        }
-        uint32_t *indices = ((uint32_t(*)[3])reader->face_normals.items)[reader->face_normals.count++];
-        indices[0] = indices[1] = indices[2] = MESH_FLAT;
     }
     mesh->face_normals = trim(&reader->face_normals);
     return true;
@@ -252,11 +259,11 @@ bool mesh_reader_finish(MeshReader *reader, bool is_fine)
 {
     Block *block = reader->block;
     Mesh *mesh = reader->mesh;
-    is_fine = is_fine && settle_face_textures(reader);
+    is_fine = is_fine && settle_face_textures(reader) && settle_face_normals(reader);
     mesh->vertices = trim(&reader->vertices);
     mesh->normals = trim(&reader->normals);
     mesh->faces = trim(&reader->faces);
-    mesh->face_textures = reader->face_textures.count > 0 ? trim(&reader->face_textures) : NULL;
+    mesh->face_textures = trim(&reader->face_textures);
     mesh->vertex_count = (uint32_t)reader->vertices.count;
     mesh->normal_count = (uint32_t)reader->normals.count;
     mesh->face_count = (uint32_t)reader->faces.count;

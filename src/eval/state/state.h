@@ -14,6 +14,7 @@
 #include "ast/words.h"
 #include "base/arena.h"
 #include "base/array.h"
+#include "base/hidden.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "eval/state/options.h"
@@ -199,6 +200,7 @@ Span eval_word_span(const Eval *ev, const AstNode *node);
 static inline void memory_rewind(Arena *arena, ArenaMark mark)
 {
     if (RT_LIKELY(arena->chunk == mark.chunk)) {
+        hidden_put(mark.next, (size_t)(arena->next - mark.next));
         arena->next = mark.next;
     } else {
         arena_rewind(arena, mark);

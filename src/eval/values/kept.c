@@ -8,24 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hidden.h"
 #include "eval/values/kept.h"
-
-#ifdef __SANITIZE_ADDRESS__
-#define IS_WATCHED 1
-#elif defined __has_feature
-#if __has_feature(address_sanitizer)
-#define IS_WATCHED 1
-#endif
-#endif
-#ifdef IS_WATCHED
-#include <sanitizer/asan_interface.h>
-#define HIDE(at, size) ASAN_POISON_MEMORY_REGION(at, size)
-#define SHOW(at, size) ASAN_UNPOISON_MEMORY_REGION(at, size)
-#else
-enum { IS_WATCHED = 0 };
-#define HIDE(at, size) ((void)(at), (void)(size))
-#define SHOW(at, size) ((void)(at), (void)(size))
-#endif
 
 enum {
     GRAIN = 16,
@@ -124,7 +108,7 @@ static KeptBlock *take_small(Eval *ev, size_t size)
     KeptBlock **list = &ev->kept.free[class], *block = *list;
     if (block != NULL) {
         *list = block->next;
-        SHOW(block + 1, (held - 1) * sizeof *block);
+        hidden_take(block + 1, (held - 1) * sizeof *block);
     } else {
         block = arena_alloc(&ev->program, (size_t)held * GRAIN);
     }
@@ -156,8 +140,8 @@ static void free_block(Eval *ev, KeptBlock *block)
         free_large(ev, large_of(block));
         return;
     }
-    HIDE(block + 1, size_of(block) - sizeof *block);
-    if (!IS_WATCHED) {
+    hidden_put(block + 1, size_of(block) - sizeof *block);
+    if (!HIDDEN_IS_ON) {
         block->next = ev->kept.free[block->class];
         ev->kept.free[block->class] = block;
     }
@@ -226,7 +210,7 @@ void kept_settle(Eval *ev, uint64_t since)
         }
     }
     size_t twice = 2 * ev->kept.retired_bytes;
-    ev->kept.settle_at = IS_WATCHED ? 0 : twice < SETTLE_LEAST ? SETTLE_LEAST : twice;
+    ev->kept.settle_at = HIDDEN_IS_ON ? 0 : twice < SETTLE_LEAST ? SETTLE_LEAST : twice;
 }
 
 void kept_init(Eval *ev)
