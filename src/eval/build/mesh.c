@@ -96,7 +96,7 @@ static bool read_triangle_end(MeshReader *reader, Cursor *cursor, uint32_t *text
                 "a triangle of a mesh has nothing but its corners, uv_vectors and the name of a texture");
         }
         cursor_skip(cursor);
-        reader->corner_count -= is_texture && (*texture & FACE_OF_CORNERS); // it has another one now
+        reader->corner_count -= is_texture && (*texture & MESH_FACE_OF_CORNERS); // it has another one now
         if (is_texture && !read_triangle_texture(reader, item, texture)) {
             return false;
         }

@@ -59,7 +59,7 @@ static bool read_uvs(MeshReader *reader, const AstNode *node)
 static bool to_indices(MeshList *list, const double v[3], size_t count, const char *of, uint32_t indices[3])
 {
     if (RT_UNLIKELY(count == 0)) { // of which -0.5, cut, would be one
-        return eval_fault(list->ev, DIAG_E0473, list_span(list), "there are no %s: %g is none of them", of, v[0]);
+        return eval_fault(list->ev, DIAG_E0473, mesh_list_span(list), "there are no %s: %g is none of them", of, v[0]);
     }
     for (int i = 0; i < 3; i++) {
         if (RT_UNLIKELY(!(v[i] > -1.0 && v[i] < (double)count))) {
