@@ -2,6 +2,7 @@
 // of the texture that it names. Triangles with their corners on one line are left out.
 //
 // SPDX-License-Identifier: MIT
+#include <math.h>
 #include <stdlib.h>
 
 #include "eval/build/mesh_reader.h"
