@@ -9,9 +9,18 @@
 
 #include "trace/ray_interval.h"
 
+static inline bool is_flat_across(Vec3 low, Vec3 high, int axis)
+{
+    return axis == 0 ? low.x == high.x : axis == 1 ? low.y == high.y : low.z == high.z;
+}
+
+// A box without thickness is met once: POV-Ray passes over its other face, which is within its tolerance.
 RT_ALWAYS_INLINE bool box_interval(Vec3 low, Vec3 high, Vec3 o, Vec3 d, uint8_t left_side, RayInterval *interval)
 {
     RayInterval y, z;
+    if (left_side < 6 && is_flat_across(low, high, left_side / 2)) {
+        return false; // its two faces are one, which the ray has left
+    }
     if (!interval_slab(o.x, d.x, low.x, high.x, 0, left_side, interval) ||
         !interval_slab(o.y, d.y, low.y, high.y, 2, left_side, &y) ||
         !interval_slab(o.z, d.z, low.z, high.z, 4, left_side, &z)) {

@@ -286,6 +286,24 @@ static void joined_give_up(CsgTraversal *p, RayStart start, uint32_t end)
     traversal_order(p);
 }
 
+// Leaves out two crossings of one mesh that change nothing together, of those behind the first that was taken: where
+// there is no room others of the mesh are there.
+static bool traversal_cancel(CsgTraversal *p, uint32_t begin, uint32_t *end)
+{
+    Crossing *c = p->crossings;
+    for (uint32_t i = begin + 1; i < *end; i++) {
+        for (uint32_t k = i + 1; c[i].face != MESH_NO_FACE && k < *end; k++) {
+            if (c[i].solid == c[k].solid && (c[i].is_film || c[i].leaves != c[k].leaves)) {
+                memmove(&c[k], &c[k + 1], (*end - k - 1) * sizeof *c);
+                memmove(&c[i], &c[i + 1], (*end - i - 2) * sizeof *c);
+                *end -= 2;
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // In the place of a face's crossing, which was taken out of the heap and stands first among those from *begin to *end,
 // the next one of the mesh comes into the heap. False: there is no room for one more.
 static bool traversal_refill(CsgTraversal *p, uint32_t *begin, uint32_t *end)
@@ -294,7 +312,7 @@ static bool traversal_refill(CsgTraversal *p, uint32_t *begin, uint32_t *end)
     if (p->crossings[*begin].face == MESH_NO_FACE) {
         return true;
     }
-    if (*end == p->csg->crossing_count) {
+    if (*end == p->csg->crossing_count && !traversal_cancel(p, *begin, end)) {
         return false;
     }
     Crossing *taken = &p->crossings[*begin];

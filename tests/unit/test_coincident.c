@@ -182,15 +182,23 @@ static void test_lit(const char *shape, const char *pigment, const char places[P
 
 // ---- a mesh in the place of a box
 
-#define CUBE_MESH                                                                                                      \
-    "mesh2 { vertex_vectors { 8, 0, x, x + y, y, z, x + z, 1, y + z }"                                                 \
-    " face_indices { 12, <0, 1, 2>, <0, 2, 3>, <4, 5, 6>, <4, 6, 7>, <0, 1, 5>, <0, 5, 4>, <3, 2, 6>, <3, 6, 7>,"      \
-    " <0, 3, 7>, <0, 7, 4>, <1, 2, 6>, <1, 6, 5> } inside_vector <0.3, 1, 0.2> }"
+#define CUBE_VERTICES "mesh2 { vertex_vectors { 8, 0, x, x + y, y, z, x + z, 1, y + z } "
+#define CUBE_FACES                                                                                                     \
+    " <0, 1, 2>, <0, 2, 3>, <4, 5, 6>, <4, 6, 7>, <0, 1, 5>, <0, 5, 4>, <3, 2, 6>, <3, 6, 7>,"                         \
+    " <0, 3, 7>, <0, 7, 4>, <1, 2, 6>, <1, 6, 5>"
+#define CUBE_INSIDE " inside_vector <0.3, 1, 0.2> }"
+#define CUBE_THRICE CUBE_FACES "," CUBE_FACES "," CUBE_FACES
+
+// Once, and with more faces in one place than a ray keeps of a mesh.
+static const char *const cubes[] = {
+    CUBE_VERTICES "face_indices { 12, " CUBE_FACES " }" CUBE_INSIDE,
+    CUBE_VERTICES "face_indices { 108, " CUBE_THRICE "," CUBE_THRICE "," CUBE_THRICE " }" CUBE_INSIDE,
+};
 
 // With other shapes that have faces on those of the cube.
 static bool draw_joined(const char *eye, const char *pattern, const char *cube, float *values)
 {
-    char text[2048], joined[1024];
+    char text[4096], joined[3072];
     snprintf(joined, sizeof joined, pattern, cube);
     int length = snprintf(text, sizeof text,
                           "#version 3.7; global_settings { assumed_gamma 1 }\n"
@@ -200,13 +208,13 @@ static bool draw_joined(const char *eye, const char *pattern, const char *cube, 
     return draw_text(text, length, values);
 }
 
-static void test_joined(const char *pattern)
+static void test_joined(const char *pattern, const char *cube)
 {
     static const char *const eyes[] = {"<-3, 0.7, 0.45>", "<-2, 2.2, -2.7>", "<5, 1.1, 0.3>"};
     static float meshes[VALUES], boxes[VALUES];
     int off = 0;
     for (size_t i = 0; i < RT_COUNT_OF(eyes); i++) {
-        off += draw_joined(eyes[i], pattern, CUBE_MESH, meshes) && draw_joined(eyes[i], pattern, "box { 0, 1 }", boxes)
+        off += draw_joined(eyes[i], pattern, cube, meshes) && draw_joined(eyes[i], pattern, "box { 0, 1 }", boxes)
                    ? pixels_off(meshes, boxes)
                    : WIDTH * HEIGHT;
     }
@@ -232,10 +240,12 @@ int main(int argc, char **argv)
         test_lit(below[i], "pigment { rgb 1 }", (const char(*)[PLACE_MOST])places);
         test_lit(below[i], "pigment { rgbt 0.5 }", (const char(*)[PLACE_MOST])places);
     }
-    test_joined("merge { %s box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> }");
-    test_joined("merge { box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> } %s");
-    test_joined("difference { box { <-0.5, -0.5, -0.5>, <1, 1.5, 1.5> } %s");
-    test_joined("difference { %s box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> }");
-    test_joined("intersection { %s box { <0.5, 0.1, -0.2>, <1, 1.3, 0.8> }");
+    test_joined("merge { %s box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> }", cubes[0]);
+    test_joined("merge { box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> } %s", cubes[0]);
+    test_joined("difference { box { <-0.5, -0.5, -0.5>, <1, 1.5, 1.5> } %s", cubes[0]);
+    for (size_t i = 0; i < RT_COUNT_OF(cubes); i++) {
+        test_joined("difference { %s box { <1, 0.1, -0.2>, <1.7, 1.3, 0.8> }", cubes[i]);
+        test_joined("intersection { %s box { <0.5, 0.1, -0.2>, <1, 1.3, 0.8> }", cubes[i]);
+    }
     return tap_done();
 }
