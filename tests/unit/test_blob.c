@@ -180,10 +180,12 @@ static void test_from_surface(const Family *family, uint64_t seed)
         }
         double t = whole[0].enter;
         Ray next = {ray_at(ray, t), random_direction(&random)};
-        double slope = vec3_dot(next.direction, blob_normal(made, next.origin));
+        Vec3 n = blob_normal(made, next.origin), step = vec3_scale(1e-3 * family->size, n);
+        double slope = vec3_dot(next.direction, n);
+        double rise = blob_field(made, vec3_sub(next.origin, step)) - blob_field(made, vec3_add(next.origin, step));
         unsigned own_count = blob_intervals(made, false, &next, (SideLeft){0, slope < 0.0}, own);
         double limit = 1e-6 * family->size;
-        if (fabs(slope) < 0.01) {
+        if (fabs(slope) < 0.01 || fabs(rise) < 1e-4) { // it grazes, or fields cancel: what is near belongs to the start
             continue;
         }
         for (unsigned k = 0; k < own_count; k++) {
