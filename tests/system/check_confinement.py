@@ -106,8 +106,19 @@ def test_formats():
             tap.equal(outcomes[0], outcomes[1], "%s is the same with and without: %s" % (picture, scene))
 
 
+def reads_ppm():
+    """Whether pictures in PPM can be read, which takes OpenImageIO."""
+    write("map.ppm", b"P6 1 1 255\n\xff\xff\xff")
+    can_read = b"E0507" not in rtlang("--check", "ppm.scn").stderr
+    os.remove("map.ppm")
+    return can_read
+
+
 def test_slow_reader():
     """Of a file that takes its reader long nobody waits for the end."""
+    if not reads_ppm():
+        tap.skip("a reader that takes long", "built without OpenImageIO")
+        return
     write("huge.scn", GOOD.replace(b"png \"map.png\"", b"ppm \"huge.ppm\""))
     with open("huge.ppm", "wb") as file:
         file.write(b"P3 9000 9000 255\n")
@@ -167,7 +178,7 @@ def test_swapped():
     tap.ok(0 < refused, "which was tried: %d of %d runs met the link, %d met none" %
            (refused, len(runs), sum(done.returncode == 0 for done in runs)))
     white, black = b"P6 1 1 255\n\xff\xff\xff", b"P6 1 1 255\n\0\0\0"
-    if b"E0507" in rtlang("--check", "ppm.scn").stderr:
+    if not reads_ppm():
         tap.skip("a picture that is swapped", "built without OpenImageIO")
         return
     runs = swapped_runs("map.ppm", black, white, read("ppm.scn"), 40)

@@ -127,10 +127,20 @@ def check_warnings(tap):
     tap.ok(status == 0 and not said, "-W64 is still a width")
 
 
+def lacks_files(path):
+    """Whether a scene names a file of POV-Ray's that is not on this machine."""
+    with open(path, encoding="utf-8") as scene:
+        is_named = re.search(r"functions\.inc|\.ttf", scene.read())
+    return is_named and not glob.glob("/usr/share/povray*/include/functions.inc")
+
+
 def check_clean_scenes(tap):
     """Nothing is suspicious in scenes that are fine."""
     top = os.environ["top_srcdir"]
     for path in sorted(glob.glob(f"{top}/examples/*.scn") + glob.glob(f"{top}/tests/povray/*.scn")):
+        if lacks_files(path):
+            tap.skip(os.path.basename(path), "POV-Ray's include files are not installed")
+            continue
         done = subprocess.run([PROGRAM, "-q", "-Wall", f"-I{top}/share/rtlang", "--check", os.path.basename(path)],
                               cwd=os.path.dirname(path), stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                               check=False)
