@@ -9,6 +9,7 @@ import ctypes
 import re
 import threading
 import warnings
+import weakref
 
 from . import _library as c
 from ._errors import BY_STATUS, Error, SceneWarning, UsageError
@@ -21,8 +22,10 @@ class Session:
         self._errors, self._warnings = [], []
         self._progress, self._fault = None, None
         self._lock = threading.Lock()
-        # The library keeps the functions, so they must live as long.
-        self._callbacks = c.Callbacks(None, c.DIAGNOSTIC(self._diagnostic), c.MESSAGE(), c.PROGRESS(self._progressed))
+        # The library keeps the functions, so they must live as long. They hold the session weakly: in a cycle its memory
+        # would wait for Python's collector, which counts objects and not gigabytes.
+        self._callbacks = c.Callbacks(None, c.DIAGNOSTIC(_weakly(self._diagnostic)), c.MESSAGE(),
+                                      c.PROGRESS(_weakly(self._progressed)))
         self._handle = c.LIBRARY.rt_session_new(ctypes.byref(self._callbacks))
         if not self._handle:
             raise MemoryError("no memory for a session of rtlang")
@@ -138,6 +141,18 @@ class Session:
             if not error.samples > 0:
                 raise interrupt or self._fault or KeyboardInterrupt()
             return False
+
+
+def _weakly(method):
+    """A function that calls the method while its object lives."""
+    reference = weakref.WeakMethod(method)
+
+    def call(*arguments):
+        alive = reference()
+        if alive:
+            alive(*arguments)
+
+    return call
 
 
 class _Turn:

@@ -5,6 +5,7 @@ Pictures from arrays beside those that the program draws of the scene's dump, by
 is refused and in which words; Ctrl-C, exceptions and threads; a wheel that is unpacked elsewhere; and every block of
 docs/python.md. Runs in a Python that has numpy, if there is one. Prints TAP. SPDX-License-Identifier: MIT
 """
+import gc
 import os
 import re
 import shutil
@@ -15,6 +16,7 @@ import tempfile
 import threading
 import time
 import warnings
+import weakref
 import zipfile
 import zlib
 
@@ -339,7 +341,7 @@ def check_warned():
         warnings.simplefilter("always")
         scene.spheres([[0, 0, 0], [1, 0, 0]], [1, 0])
         scene.render(16, 12)
-    tap.ok(["a sphere of radius 0 is not drawn" in str(told[0].message), "no lights" in str(told[1].message)],
+    tap.ok("a sphere of radius 0 is not drawn" in str(told[0].message) and "no lights" in str(told[1].message),
            "0 lights and a radius of 0 are warned of")
     tap.ok(os.path.samefile(told[0].filename, __file__), "warnings name the caller's line", told[0].filename)
     lost = lit()
@@ -352,6 +354,18 @@ def check_warned():
         tap.ok(False, "after that the scene is lost")
     except rtlang.UsageError:
         tap.ok(True, "after that the scene is lost")
+
+
+def check_memory():
+    """A scene that nobody holds any more is gone at once, without the collector."""
+    gc.disable()
+    scene = lit()
+    group = scene.spheres(*cloud(20))
+    image = scene.render(16, 12, progress=lambda done: None)
+    handle = weakref.ref(scene._session)  # pylint: disable=protected-access
+    del scene, group
+    tap.ok(handle() is None and image.pixels.any(), "a scene that is dropped gives its memory back at once")
+    gc.enable()
 
 
 # ---- interrupts and threads
@@ -482,6 +496,7 @@ def main():
         check_looks(folder)
         check_refused()
         check_warned()
+        check_memory()
         check_interrupts()
         check_wheel(folder)
         for document in ("README.md", os.path.join("docs", "python.md")):
