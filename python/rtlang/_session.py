@@ -22,8 +22,8 @@ class Session:
         self._errors, self._warnings = [], []
         self._progress, self._fault = None, None
         self._lock = threading.Lock()
-        # The library keeps the functions, so they must live as long. They hold the session weakly: in a cycle its memory
-        # would wait for Python's collector, which counts objects and not gigabytes.
+        # The library keeps the functions, so they must live as long. They hold the session weakly: in a cycle its
+        # memory would wait for Python's collector, which counts objects and not gigabytes.
         self._callbacks = c.Callbacks(None, c.DIAGNOSTIC(_weakly(self._diagnostic)), c.MESSAGE(),
                                       c.PROGRESS(_weakly(self._progressed)))
         self._handle = c.LIBRARY.rt_session_new(ctypes.byref(self._callbacks))

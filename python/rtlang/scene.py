@@ -12,6 +12,7 @@ import weakref
 from typing import Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _library as c
 from ._arrays import colors_of, count_of, numbers, pass_on, rows
@@ -55,8 +56,12 @@ class SphereGroup:
     def __len__(self) -> int:
         return self.count
 
-    def update(self, centers=None, radii=None, colors=None, first: int = 0) -> None:
+    def update(self, centers: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
+               colors: Optional[ArrayLike] = None, first: int = 0) -> None:
         """Other numbers for the spheres from `first` on, as many as the arrays are long; None: as they were.
+
+        centers, radii, colors  shapes and dtypes as of Scene.spheres; without any array, (3,) or a number is for all
+        Raises SceneError with the `index` of what is wrong, and UsageError when the group has fewer spheres.
 
         Other colors alone cost no tree. As long as spheres stay about where they were, the tree stays, too, and its
         boxes are made to fit; a new one is built where that would cost rays too much (Image.built).
@@ -122,6 +127,17 @@ class Scene:
     def __exit__(self, *_) -> None:
         self.close()
 
+    def __repr__(self) -> str:
+        if self._session.is_closed:
+            return "<rtlang.Scene, closed>"
+        parts = f"{self._shapes} {'part' if self._shapes == 1 else 'parts'}"
+        try:
+            low, high = self.box()
+        except UsageError:
+            return f"<rtlang.Scene of {parts}>"
+        return (f"<rtlang.Scene of {parts}, from ({low[0]:.4g}, {low[1]:.4g}, {low[2]:.4g}) to "
+                f"({high[0]:.4g}, {high[1]:.4g}, {high[2]:.4g})>")
+
     def close(self) -> None:
         """Gives its memory back; after that all other methods raise UsageError."""
         self._session.close()
@@ -131,10 +147,18 @@ class Scene:
     def _finish(self, finish: Optional[str]) -> Optional[bytes]:
         return _text("finish", self._look.finish if finish is None and self._look is not None else finish)
 
-    def spheres(self, centers, radii, colors=None, finish: Optional[str] = None, name: str = "spheres") -> SphereGroup:
-        """Adds n spheres: centers (n, 3); radii (n,) or a number, at least 0 (0 is not drawn, with a SceneWarning).
+    def spheres(self, centers: ArrayLike, radii: ArrayLike, colors: Optional[ArrayLike] = None,
+                finish: Optional[str] = None, name: str = "spheres") -> SphereGroup:
+        """Adds n spheres. Returns the group, whose `update` moves and colors it.
 
-        `name` is for messages: "spheres[17]". Returns the group, whose `update` moves and colors it.
+        centers  (n, 3) of float64, float32 or integers, finite
+        radii    (n,) or a number, in the same unit, at least 0 (0 is not drawn, with a SceneWarning)
+        colors   (n, 3) or (n, 4), (3,) or (4,) for all; linear light, the fourth is alpha; None: white
+        finish   of all of them, as of the whole Scene
+        name     is for messages: "spheres[17]"
+
+        Raises SceneError (a number out of range, with its `index`), UsageError (shape, dtype), LimitError (memory,
+        objects).
         """
         centers, radii = numbers("centers", centers, (None, 3)), numbers("radii", radii, (None,))
         colors, color_numbers = colors_of("colors", colors)
@@ -146,10 +170,16 @@ class Scene:
         self._shapes += 1
         return SphereGroup(self, group.value, count)
 
-    def rods(self, bases, caps, radii, colors=None, finish: Optional[str] = None, cap_radii=None, open: bool = False,
+    def rods(self, bases: ArrayLike, caps: ArrayLike, radii: ArrayLike, colors: Optional[ArrayLike] = None,
+             finish: Optional[str] = None, cap_radii: Optional[ArrayLike] = None, open: bool = False,
              name: str = "rods") -> None:
-        """Adds n cylinders from bases (n, 3) to caps (n, 3), of radii (n,) or a number; cones where `cap_radii` says
-        other radii of the caps. open: without the discs at their ends."""
+        """Adds n cylinders, or cones.
+
+        bases, caps  (n, 3), finite: the middles of their ends
+        radii        (n,) or a number, at least 0; cap_radii likewise, of the caps where they are cones
+        open         without the discs at their ends
+        colors, finish, name and what is raised are as of `spheres`
+        """
         bases, caps = numbers("bases", bases, (None, 3)), numbers("caps", caps, (None, 3))
         radii = numbers("radii", radii, (None,))
         cap_radii = None if cap_radii is None else numbers("cap_radii", cap_radii, (None,))
@@ -162,12 +192,15 @@ class Scene:
         self._session.call("rt_add_rods", ctypes.byref(rods))
         self._shapes += 1
 
-    def bonds(self, centers, pairs, radius, colors=None, center_colors=None, finish: Optional[str] = None,
-              name: str = "bonds") -> None:
-        """Adds a rod for each of pairs (m, 2), integers that name two of centers (n, 3).
+    def bonds(self, centers: ArrayLike, pairs: ArrayLike, radius: ArrayLike, colors: Optional[ArrayLike] = None,
+              center_colors: Optional[ArrayLike] = None, finish: Optional[str] = None, name: str = "bonds") -> None:
+        """Adds a rod for each of pairs (m, 2), integers from 0 that name two of centers (n, 3).
 
+        radius  (m,) or a number
         colors  (m, 3) or (3,), of the bonds; or center_colors (n, 3): each half has the color of its end, and messages
                 then name halves, two for each bond
+
+        Raises UsageError when a pair names a center that there is not, otherwise as `spheres`.
         """
         centers, pairs = numbers("centers", centers, (None, 3)), np.asarray(pairs)
         if pairs.size == 0:
@@ -187,10 +220,14 @@ class Scene:
         halves = np.stack((bases, middles, caps, middles), axis=1).reshape(-1, 2, 3)
         self.rods(halves[:, 0], halves[:, 1], radius, at[pairs].reshape(-1, at.shape[-1]), finish, open=True, name=name)
 
-    def triangles(self, corners, colors=None, finish: Optional[str] = None, normals=None,
-                  name: str = "triangles") -> None:
-        """Adds n triangles: corners (n, 3, 3); normals (n, 3, 3) of the corners make them look round. Triangles
-        without area are not drawn, with a SceneWarning."""
+    def triangles(self, corners: ArrayLike, colors: Optional[ArrayLike] = None, finish: Optional[str] = None,
+                  normals: Optional[ArrayLike] = None, name: str = "triangles") -> None:
+        """Adds n triangles. Those without area are not drawn, with a SceneWarning.
+
+        corners  (n, 3, 3): triangle, corner, coordinate
+        normals  (n, 3, 3) of the corners, of any length but 0, make them look round
+        colors, finish, name and what is raised are as of `spheres`
+        """
         corners = rows(numbers("corners", corners, (None, 3, 3)))
         normals = None if normals is None else rows(numbers("normals", normals, (None, 3, 3)))
         colors, color_numbers = colors_of("colors", colors)
@@ -201,14 +238,17 @@ class Scene:
         self._shapes += 1
 
     def text(self, text: str, name: str = "text") -> None:
-        """Adds a part of the scene in the scene language, as a file would say it. `name` is for messages."""
+        """Adds a part of the scene in the scene language, as a file would say it. `name` is for messages.
+
+        Raises SceneError with code, `place` ("text:1:15") and `suggestion`; the scene is lost then.
+        """
         data = _text("text", text)
         self._has_text = True
         self._session.call("rt_load_text", _text("name", name), data, len(data))
         self._shapes += 1
 
     def file(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Adds a part of the scene from a file."""
+        """Adds a part of the scene from a file. Raises FileError when it cannot be read, otherwise as `text`."""
         self._has_text = True
         self._session.call("rt_load_file", os.fsencode(path))
         self._shapes += 1

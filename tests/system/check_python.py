@@ -357,13 +357,15 @@ def check_warned():
 
 
 def check_memory():
-    """A scene that nobody holds any more is gone at once, without the collector."""
+    """What a scene is in a notebook; one that nobody holds any more is gone at once, without the collector."""
     gc.disable()
     scene = lit()
-    group = scene.spheres(*cloud(20))
+    group = scene.spheres([[0, 0, 0], [2, 0, -1]], 1)
+    said = repr(scene)
     image = scene.render(16, 12, progress=lambda done: None)
     handle = weakref.ref(scene._session)  # pylint: disable=protected-access
     del scene, group
+    tap.ok(said == "<rtlang.Scene of 1 part, from (-1, -1, -2) to (3, 1, 1)>", "what a scene says of itself", said)
     tap.ok(handle() is None and image.pixels.any(), "a scene that is dropped gives its memory back at once")
     gc.enable()
 
