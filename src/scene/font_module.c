@@ -85,6 +85,17 @@ static double table_bearing(FT_Face face, uint32_t index)
     return (double)(int16_t)(uint16_t)(bytes[0] << 8 | bytes[1]);
 }
 
+// As POV-Ray has it (measured: "u" of cyrvetic.ttf, "*" and "@" of timrom.ttf): where a point lies left of the bearing,
+// also one that only bends a curve, the letter stands as far to the right.
+static void move_to_bearing(FT_Outline *outline, double bearing)
+{
+    FT_Pos left = (FT_Pos)bearing, from = left;
+    for (int i = 0; i < outline->n_points; i++) {
+        from = outline->points[i].x < from ? outline->points[i].x : from;
+    }
+    FT_Outline_Translate(outline, left - from, 0);
+}
+
 static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
 {
     FT_Face face = font->face;
@@ -94,7 +105,11 @@ static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
     }
     glyph->advance = (double)face->glyph->advance.x;
     glyph->bearing = table_bearing(face, glyph->index);
-    return face->glyph->format == FT_GLYPH_FORMAT_OUTLINE;
+    if (face->glyph->format != FT_GLYPH_FORMAT_OUTLINE) {
+        return false;
+    }
+    move_to_bearing(&face->glyph->outline, glyph->bearing);
+    return true;
 }
 
 static double font_kerning(FontFace *font, uint32_t left, uint32_t right)
