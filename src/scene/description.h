@@ -282,9 +282,16 @@ struct UnionStep {
 };
 
 // A union, merge, intersection or difference; the objects in clipped_by or bounded_by.
+// POV-Ray's box of a shape in a space of its own, which the frame leads out of.
+typedef struct OwnBox {
+    Vec3 low, high;
+    Transform frame;
+} OwnBox;
+
 typedef struct UnionDesc {
     ObjectPart part;
     const UnionStep *steps; // the last one first
+    const OwnBox *box;      // before all steps; NULL: that of the members
     const UnionMember *members;
     uint32_t count;
     uint32_t depth;       // of the unions inside, this one included

@@ -77,6 +77,10 @@ FontResult font_letter(Font *font, uint32_t character, Arena *arena, FontLetter 
     letter->index = glyph.index;
     letter->advance = font->unit * glyph.advance;
     letter->bearing = font->unit * glyph.bearing;
+    for (int i = 0; i < 2; i++) {
+        letter->low[i] = font->unit * glyph.low[i];
+        letter->high[i] = font->unit * glyph.high[i];
+    }
     bool is_drawn = !has_outline || font->module->draw(font->face, pen_draw, &pen);
     letter->is_cut = !is_drawn;
     if (!is_drawn || pen.pieces == 0) {

@@ -27,6 +27,7 @@ typedef struct Font {
 typedef struct FontLetter {
     uint32_t index;
     double advance, bearing; // from its origin to the next letter's, and to its own left edge; the font's size is 1
+    double low[2], high[2];  // as in FontGlyph
     Numbers outline;         // with no piece: it is not seen
     bool is_cut;             // it has more pieces than an outline may have
 } FontLetter;

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/font_module.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,28 +73,65 @@ static FontFace *font_open(const char *path, double *units, char *why, size_t si
     return font;
 }
 
-// The left side bearing as the table has it, which may differ from where the outline begins.
-static double table_bearing(FT_Face face, uint32_t index)
+// ---- what the font's tables say, which may be something else than its outlines
+
+// Big-endian bytes of a table; false: there are not so many.
+static bool table_read(FT_Face face, FT_ULong table, FT_ULong offset, FT_Byte *bytes, FT_ULong count)
+{
+    FT_ULong size = count;
+    return FT_Load_Sfnt_Table(face, table, (FT_Long)offset, bytes, &size) == 0;
+}
+
+static int16_t int16_at(const FT_Byte *bytes)
+{
+    return (int16_t)(uint16_t)(bytes[0] << 8 | bytes[1]);
+}
+
+// Where the outline begins, where there is no table.
+static FT_Pos table_bearing(FT_Face face, uint32_t index)
 {
     const TT_HoriHeader *header = FT_Get_Sfnt_Table(face, FT_SFNT_HHEA);
     FT_Byte bytes[2];
-    FT_ULong size = sizeof bytes, count = header ? header->number_Of_HMetrics : 0;
+    FT_ULong count = header ? header->number_Of_HMetrics : 0;
     FT_ULong offset = index < count ? 4 * (FT_ULong)index + 2 : 4 * count + 2 * (index - count);
-    if (count == 0 || FT_Load_Sfnt_Table(face, TTAG_hmtx, (FT_Long)offset, bytes, &size)) {
-        return (double)face->glyph->metrics.horiBearingX;
+    if (count == 0 || !table_read(face, TTAG_hmtx, offset, bytes, sizeof bytes)) {
+        return face->glyph->metrics.horiBearingX;
     }
-    return (double)(int16_t)(uint16_t)(bytes[0] << 8 | bytes[1]);
+    return int16_at(bytes);
+}
+
+// The glyph's own box; {0} where it has none.
+static FT_BBox table_box(FT_Face face, uint32_t index)
+{
+    const TT_Header *header = FT_Get_Sfnt_Table(face, FT_SFNT_HEAD);
+    FT_Byte bytes[8];
+    FT_ULong width = header && header->Index_To_Loc_Format ? 4 : 2, offset = 0;
+    if (!header || !table_read(face, TTAG_loca, width * index, bytes, width)) {
+        return (FT_BBox){0};
+    }
+    for (FT_ULong i = 0; i < width; i++) {
+        offset = offset << 8 | bytes[i];
+    }
+    offset = 2 + (width == 2 ? 2 * offset : offset); // after the number of contours
+    if (!table_read(face, TTAG_glyf, offset, bytes, sizeof bytes)) {
+        return (FT_BBox){0};
+    }
+    return (FT_BBox){int16_at(bytes), int16_at(bytes + 2), int16_at(bytes + 4), int16_at(bytes + 6)};
 }
 
 // As POV-Ray has it (measured: "u" of cyrvetic.ttf, "*" and "@" of timrom.ttf): where a point lies left of the bearing,
-// also one that only bends a curve, the letter stands as far to the right.
-static void move_to_bearing(FT_Outline *outline, double bearing)
+// also one that only bends a curve, the letter stands as far to the right. Its box is that of all points and of the
+// table, which may be more ("j" of timrom.ttf).
+static void place_at_bearing(FT_GlyphSlot slot, FT_Pos left, FT_BBox told, FontGlyph *glyph)
 {
-    FT_Pos left = (FT_Pos)bearing, from = left;
-    for (int i = 0; i < outline->n_points; i++) {
-        from = outline->points[i].x < from ? outline->points[i].x : from;
-    }
-    FT_Outline_Translate(outline, left - from, 0);
+    FT_BBox points;
+    FT_Outline_Get_CBox(&slot->outline, &points);
+    FT_Pos beyond = points.xMin < left ? left - points.xMin : 0;
+    FT_Outline_Translate(&slot->outline, beyond, 0);
+    glyph->low[0] = (double)left;
+    glyph->low[1] = fmin((double)points.yMin, (double)told.yMin);
+    glyph->high[0] = (double)beyond + fmax((double)points.xMax, (double)(left + told.xMax - told.xMin));
+    glyph->high[1] = fmax((double)points.yMax, (double)told.yMax);
 }
 
 static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
@@ -104,11 +142,14 @@ static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
         return false;
     }
     glyph->advance = (double)face->glyph->advance.x;
-    glyph->bearing = table_bearing(face, glyph->index);
+    FT_Pos left = table_bearing(face, glyph->index);
+    glyph->bearing = (double)left;
     if (face->glyph->format != FT_GLYPH_FORMAT_OUTLINE) {
         return false;
     }
-    move_to_bearing(&face->glyph->outline, glyph->bearing);
+    if (face->glyph->outline.n_points > 0) {
+        place_at_bearing(face->glyph, left, table_box(face, glyph->index), glyph);
+    }
     return true;
 }
 

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 // Raised with each change of the structures below; a module of another version is passed over.
-#define FONT_MODULE_VERSION 1u
+#define FONT_MODULE_VERSION 2u
 #define FONT_MODULE_FILE "rtlang_font.so"
 #define FONT_MODULE_SYMBOL "rtlang_font_module"
 
@@ -19,6 +19,7 @@ typedef struct FontFace FontFace;
 typedef struct FontGlyph {
     uint32_t index;
     double advance, bearing; // from one glyph to the next, and from its origin to its left edge
+    double low[2], high[2];  // the box of all its points, and of what the font says of it; 0 of a blank
 } FontGlyph;
 
 // A piece of an outline: a Bézier curve of degree 3 from points[0..1] to points[6..7]. False: no more is wanted.

@@ -329,12 +329,6 @@ bool clips_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 
 // shape_class.c: what the language says of each kind of shape.
 
-// POV-Ray's box of a shape in a space of its own, which the frame leads out of.
-typedef struct OwnBox {
-    Vec3 low, high;
-    Transform frame;
-} OwnBox;
-
 bool blob_box(const void *object, OwnBox *own);
 
 typedef struct ShapeClass {

@@ -3,7 +3,7 @@
 // A box is POV-Ray's, as measured: a corner and lengths in single precision. A sphere that was only moved, turned and
 // scaled evenly has its own box; of any other shape, or after any other transform, the corners of a box in the shape's
 // own space are turned. The box of a union or intersection is made of those of its members, and each transform of it
-// turns that box again. What clips or bounds an object gives its box instead where that is smaller. Knows nothing of
+// turns that box again; that of a text is the one of its letters side by side. What clips or bounds an object gives its box instead where that is smaller. Knows nothing of
 // what is drawn.
 //
 // SPDX-License-Identifier: MIT
@@ -128,6 +128,12 @@ static Extent corners_extent(const Vec3 corners[3], const Transform *transform)
                      (double[]){high.x + off, high.y + off, high.z + off});
 }
 
+static Extent corners_of(const OwnBox *box)
+{
+    return extent_of((double[]){box->low.x, box->low.y, box->low.z},
+                     (double[]){box->high.x, box->high.y, box->high.z});
+}
+
 // By all transforms of the shape at once.
 static Extent shape_extent(SchemaKind kind, const void *object, const Transform *transform)
 {
@@ -140,7 +146,7 @@ static Extent shape_extent(SchemaKind kind, const void *object, const Transform 
     if (isinf(box.high.x)) {
         return extent_boundless();
     }
-    Extent own = extent_of((double[]){box.low.x, box.low.y, box.low.z}, (double[]){box.high.x, box.high.y, box.high.z});
+    Extent own = corners_of(&box);
     return has_frame ? turned_from(&own, box.frame, transform) : turned(&own, transform);
 }
 
@@ -219,6 +225,10 @@ static Extent common_extent(const UnionDesc *group, bool is_difference)
 // The steps are linked newest first; a scene has few on one union.
 static Extent stepped(SchemaKind kind, const UnionDesc *group, const UnionStep *step)
 {
+    if (step == NULL && group->box != NULL) {
+        Extent own = corners_of(group->box);
+        return turned(&own, &group->box->frame);
+    }
     if (step == NULL) {
         return kind == KIND_UNION || kind == KIND_MERGE ? members_extent(group)
                                                         : common_extent(group, kind == KIND_DIFFERENCE);

@@ -14,6 +14,8 @@
 
 // In degrees, about each axis. Measured.
 static const double TURN = 0.001;
+// How far POV-Ray's box of a text stands off its front and its back. Measured.
+static const double BOX_DISTANCE = 1e-6;
 
 typedef struct TextHead {
     const char *path, *real; // of the font; without links
@@ -112,11 +114,23 @@ static bool read_head(Block *block, TextHead *head)
 
 // ---- letters
 
+static Transform letters_turn(void)
+{
+    return transform_rotate(vec3(TURN, TURN, TURN));
+}
+
 // The outline's z becomes y, and its height z.
 static Transform letter_place(double x, double y)
 {
     Transform place = {{{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}, {x, y, 0.0}}};
-    return transform_compose(place, transform_rotate(vec3(TURN, TURN, TURN)));
+    return transform_compose(place, letters_turn());
+}
+
+// Blanks count as a point.
+static void widen(OwnBox *box, const FontLetter *letter, Vec3 pen)
+{
+    box->low = vec3_least(box->low, vec3(pen.x + letter->low[0], pen.y + letter->low[1], box->low.z));
+    box->high = vec3_greatest(box->high, vec3(pen.x + letter->high[0], pen.y + letter->high[1], box->high.z));
 }
 
 static bool add_letter(Block *block, const TextHead *head, const Numbers *outline, double x, double y,
@@ -140,7 +154,7 @@ static bool add_letter(Block *block, const TextHead *head, const Numbers *outlin
     return true;
 }
 
-static bool add_letters(Block *block, const TextHead *head, Font *font, UnionMember ***end, uint32_t *count)
+static bool add_letters(Block *block, const TextHead *head, Font *font, OwnBox *box, UnionMember ***end, uint32_t *count)
 {
     Vec3 pen = {0.0, 0.0, 0.0};
     uint32_t before = 0;
@@ -162,6 +176,7 @@ static bool add_letters(Block *block, const TextHead *head, Font *font, UnionMem
         }
         pen.x += is_first ? -letter.bearing : font_kerning(font, before, letter.index) + head->offset.x;
         pen.y += is_first ? 0.0 : head->offset.y;
+        widen(box, &letter, pen);
         if (letter.outline.count > 0) {
             if (!add_letter(block, head, &letter.outline, pen.x, pen.y, end)) {
                 return false;
@@ -195,7 +210,15 @@ bool text_body(Block *block)
     case FONT_OK:
         break;
     }
-    bool is_fine = add_letters(block, &head, &font, &end, &group->count);
+    OwnBox *box = arena_alloc(block->arena, sizeof *box);
+    bool is_fine = box != NULL || eval_no_memory(block->ev, block->node->span);
+    if (is_fine) {
+        *box = (OwnBox){.low = {INFINITY, INFINITY, -BOX_DISTANCE},
+                        .high = {-INFINITY, -INFINITY, head.thickness + BOX_DISTANCE},
+                        .frame = letters_turn()};
+        is_fine = add_letters(block, &head, &font, box, &end, &group->count);
+        group->box = box->low.x <= box->high.x ? box : NULL;
+    }
     font_close(&font);
     group->members = first;
     group->depth = 1;
