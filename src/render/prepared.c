@@ -229,6 +229,9 @@ static unsigned needed_features(const Prepared *p, const Scene *scene, int threa
     for (size_t i = 0; i < p->finish_count; i++) {
         features |= finish_features(&p->finishes[i]);
     }
+    // Layers and maps may have several exponents at a point, each with a ray of its own, as bumps have.
+    bool has_exponents = (features & RENDER_EXPONENT) && (features & RENDER_TEXTURES);
+    features |= has_exponents ? (unsigned)RENDER_NORMALS : 0;
     return features;
 }
 

@@ -8,7 +8,7 @@
 #include "base/module.h"
 #include "scene/outline.h"
 
-FontResult font_open(Font *font, const char *path, char *why, size_t size)
+FontResult font_open(Font *font, const char *path, bool is_unicode, char *why, size_t size)
 {
 #ifdef WITH_FREETYPE
     enum { ROOM = 32 << 20 };
@@ -21,11 +21,12 @@ FontResult font_open(Font *font, const char *path, char *why, size_t size)
         return result == MODULE_NO_MEMORY ? FONT_NO_MEMORY : FONT_NO_MODULE;
     }
     font->module = module;
-    font->face = font->module->open(path, &units, why, size);
+    font->face = font->module->open(path, is_unicode, &units, why, size);
     font->unit = 1.0 / units;
     return font->face ? FONT_OK : FONT_NONE;
 #else
     (void)path;
+    (void)is_unicode;
     *font = (Font){.module = NULL};
     snprintf(why, size, "this rtlang was built without it");
     return FONT_NO_MODULE;

@@ -33,7 +33,8 @@ typedef struct FontLetter {
 } FontLetter;
 
 // Opens a font of a file, for font_close. On another result nothing is open, and `why` says in one line what is wrong.
-FontResult font_open(Font *font, const char *path, char *why, size_t size) RT_MUST_CHECK;
+// Of characters as FontModule has it.
+FontResult font_open(Font *font, const char *path, bool is_unicode, char *why, size_t size) RT_MUST_CHECK;
 void font_close(Font *font);
 
 // The letter of a character; its outline lives as long as the arena. FONT_OK or FONT_NO_MEMORY.

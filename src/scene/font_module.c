@@ -12,6 +12,7 @@
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 #include FT_FONT_FORMATS_H
+#include FT_TRUETYPE_IDS_H
 #include FT_TRUETYPE_TABLES_H
 #include FT_TRUETYPE_TAGS_H
 
@@ -43,15 +44,20 @@ static FontFace *refuse(FontFace *font, const char *text, char *why, size_t size
     return NULL;
 }
 
-// A font that has no Unicode has what it had on the Macintosh, or letters of its own.
-static void choose_characters(FT_Face face)
+// FreeType chooses Unicode where there is that. Of what is left the first is as good as any.
+static void choose_characters(FT_Face face, bool is_unicode)
 {
+    for (int i = 0; !is_unicode && i < face->num_charmaps; i++) {
+        if (face->charmaps[i]->platform_id == TT_PLATFORM_MACINTOSH) {
+            FT_Set_Charmap(face, face->charmaps[i]);
+        }
+    }
     for (int i = 0; !face->charmap && i < face->num_charmaps; i++) {
         FT_Set_Charmap(face, face->charmaps[i]);
     }
 }
 
-static FontFace *font_open(const char *path, double *units, char *why, size_t size)
+static FontFace *font_open(const char *path, bool is_unicode, double *units, char *why, size_t size)
 {
     FontFace *font = calloc(1, sizeof *font);
     if (!font) {
@@ -68,7 +74,7 @@ static FontFace *font_open(const char *path, double *units, char *why, size_t si
     if (!format || strcmp(format, "TrueType") != 0 || !FT_IS_SCALABLE(font->face) || font->face->units_per_EM == 0) {
         return refuse(font, "it is no TrueType font", why, size);
     }
-    choose_characters(font->face);
+    choose_characters(font->face, is_unicode);
     *units = font->face->units_per_EM;
     return font;
 }
@@ -100,37 +106,40 @@ static FT_Pos table_bearing(FT_Face face, uint32_t index)
     return int16_at(bytes);
 }
 
-// The glyph's own box; {0} where it has none.
-static FT_BBox table_box(FT_Face face, uint32_t index)
+// The head of a glyph; false where it has none.
+static bool table_head(FT_Face face, uint32_t index, FT_Byte bytes[10])
 {
     const TT_Header *header = FT_Get_Sfnt_Table(face, FT_SFNT_HEAD);
-    FT_Byte bytes[8];
     FT_ULong width = header && header->Index_To_Loc_Format ? 4 : 2, offset = 0;
     if (!header || !table_read(face, TTAG_loca, width * index, bytes, width)) {
-        return (FT_BBox){0};
+        return false;
     }
     for (FT_ULong i = 0; i < width; i++) {
         offset = offset << 8 | bytes[i];
     }
-    offset = 2 + (width == 2 ? 2 * offset : offset); // after the number of contours
-    if (!table_read(face, TTAG_glyf, offset, bytes, sizeof bytes)) {
-        return (FT_BBox){0};
-    }
-    return (FT_BBox){int16_at(bytes), int16_at(bytes + 2), int16_at(bytes + 4), int16_at(bytes + 6)};
+    return table_read(face, TTAG_glyf, width == 2 ? 2 * offset : offset, bytes, 10);
 }
 
-// As POV-Ray has it (measured: "u" of cyrvetic.ttf, "*" and "@" of timrom.ttf): where a point lies left of the bearing,
-// also one that only bends a curve, the letter stands as far to the right. Its box is that of all points and of the
-// table, which may be more ("j" of timrom.ttf).
-static void place_at_bearing(FT_GlyphSlot slot, FT_Pos left, FT_BBox told, FontGlyph *glyph)
+// As POV-Ray has it. Measured: where a letter reaches left of its box by the table, also by a point that only bends a
+// curve ("u" of cyrvetic.ttf, "*" and "@" of timrom.ttf), it stands as far to the right; of one that is put together
+// (letters with accents, in most fonts) the box begins with the origin. Its box is that of all points and of the table,
+// which may be more ("j" of timrom.ttf).
+static void place_at_bearing(FT_Face face, FT_Pos left, FontGlyph *glyph)
 {
-    FT_BBox points;
-    FT_Outline_Get_CBox(&slot->outline, &points);
-    FT_Pos beyond = points.xMin < left ? left - points.xMin : 0;
-    FT_Outline_Translate(&slot->outline, beyond, 0);
+    FT_Byte head[10] = {0};
+    FT_BBox points, told = {0};
+    FT_Outline *outline = &face->glyph->outline;
+    FT_Outline_Get_CBox(outline, &points);
+    FT_Pos begin = table_head(face, glyph->index, head) ? int16_at(head + 2) : left;
+    FT_Pos moved = left - begin; // by FreeType
+    if (int16_at(head) > 0) {
+        told = (FT_BBox){begin, int16_at(head + 4), int16_at(head + 6), int16_at(head + 8)};
+    }
+    FT_Pos right = left - (points.xMin - moved < told.xMin ? points.xMin - moved : told.xMin);
+    FT_Outline_Translate(outline, right - moved, 0);
     glyph->low[0] = (double)left;
     glyph->low[1] = fmin((double)points.yMin, (double)told.yMin);
-    glyph->high[0] = (double)beyond + fmax((double)points.xMax, (double)(left + told.xMax - told.xMin));
+    glyph->high[0] = (double)right + fmax((double)(points.xMax - moved), (double)told.xMax);
     glyph->high[1] = fmax((double)points.yMax, (double)told.yMax);
 }
 
@@ -148,7 +157,7 @@ static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
         return false;
     }
     if (face->glyph->outline.n_points > 0) {
-        place_at_bearing(face->glyph, left, table_box(face, glyph->index), glyph);
+        place_at_bearing(face, left, glyph);
     }
     return true;
 }

@@ -27,8 +27,9 @@ typedef bool (*FontPen)(void *client, const double points[8]);
 
 typedef struct FontModule {
     unsigned version; // stays the first member
-    // A TrueType font, or the first one of a collection; NULL where there is none, and `why` in a few words.
-    FontFace *(*open)(const char *path, double *units, char *why, size_t size);
+    // A TrueType font, or the first one of a collection; NULL where there is none, and `why` in a few words. Characters
+    // are Unicode's, or else the numbers that its table for the Macintosh has, where it has one.
+    FontFace *(*open)(const char *path, bool is_unicode, double *units, char *why, size_t size);
     void (*close)(FontFace *face);
     // What stands for a character; that of none, where the font has not this one.
     bool (*glyph)(FontFace *face, uint32_t character, FontGlyph *glyph);

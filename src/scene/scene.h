@@ -167,7 +167,7 @@ typedef struct Normal {
     uint32_t unused;
 } Normal;
 
-// Layers with bumps that may mirror or bend rays at one point of a texture.
+// Layers with bumps or exponents that may mirror or bend rays at one point of a texture.
 enum { SCENE_NORMALS_MOST = 7 };
 
 // Patterns that one point of a texture may take: between two entries of a map both are looked at, so that maps of maps

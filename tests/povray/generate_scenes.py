@@ -2,9 +2,10 @@
 """Scenes that combine what the language has, so that few of them hold every pair of choices.
 
 Each factor below is a table: name of a choice, its text. In the text `{0.2~0.9}` stands for a number between the two,
-`{rgb}` for a colour, `{axis}` for a direction and `{point}` for a place near the origin. What a newly supported word needs is
-a row in the table of its kind. A scene has choices of its own (camera, light, …) and four objects, each with choices of
-its own (shape, pigment, …); pairs are of two choices of one object, of two of one scene, or of an object and its scene.
+`{rgb}` for a colour, `{axis}` for a direction, `{point}` for a place near the origin, `{font}` for one of POV-Ray's and
+`{letters}` for two of any. What a newly supported word needs is a row in the table of its kind. A scene has choices of
+its own (camera, light, …) and four objects, each with choices of its own (shape, pigment, …); pairs are of two choices of
+one object, of two of one scene, or of an object and its scene.
 
 Usage: generate_scenes.py COUNT SEED [NUMBER]   prints a scene, or how many pairs are covered by so many.
 SPDX-License-Identifier: MIT
@@ -12,6 +13,7 @@ SPDX-License-Identifier: MIT
 import itertools
 import random
 import re
+import string
 import sys
 
 OBJECTS = 4
@@ -34,7 +36,7 @@ HEAD = {  # shapes without a closing brace, about 1 in size
                    " <0.7, 0.1>, <{0.5~1}, 1>, <-0.9, {0.6~1}>, <-0.8, 0> translate -0.5*y",
     "polygon": "polygon { 5, <-0.9, {-0.8~-0.4}, 0.13>, <{0.4~0.9}, -0.7, 0.13>, <0.8, {0.3~0.8}, 0.13>, <{-0.3~0.3}, 0, 0.13>,"
                " <-0.7, {0.5~0.8}, 0.13>",
-    "text": "text { ttf \"timrom.ttf\" \"R&\" {0.3~0.7}, {0~0.2}*x translate <-0.7, -0.4, -0.3>",
+    "text": "text { ttf \"{font}\" \"{letters}\" {0.3~0.7}, {0~0.2}*x translate <-0.7, -0.4, -0.3>",
     "quadric": "quadric { <{1~2}, {1~2}, {1~2}>, <{-0.5~0.5}, 0, {-0.5~0.5}>, <0, {-0.2~0.2}, 0>, -0.8",
     "quartic": "quartic { <1, 0, 0, 0, {0.1~0.5}, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,"
                " 1, 0, 0, {0.1~0.5}, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, -0.5> sturm",
@@ -359,9 +361,13 @@ def fill(rng, text):
             return f"<{number(-1, 1)}, {number(0.2, 1)}, {number(-1, 1)}>"
         if word == "{point}":
             return f"<{number(-0.15, 0.15)}, {number(-0.15, 0.15)}, {number(-0.15, 0.15)}>"
+        if word == "{font}":
+            return rng.choice(("timrom.ttf", "cyrvetic.ttf", "crystal.ttf"))
+        if word == "{letters}":
+            return "".join(rng.choice(string.ascii_letters + string.digits + "!#$%&*+-?@") for _ in range(2))
         low, high = word[1:-1].split("~")
         return number(float(low), float(high))
-    return re.sub(r"\{(?:rgb|axis|point|-?[\d.]+~-?[\d.]+)\}", replace, text)
+    return re.sub(r"\{(?:rgb|axis|point|font|letters|-?[\d.]+~-?[\d.]+)\}", replace, text)
 
 
 def object_text(rng, choices, place, in_fog):

@@ -5,6 +5,7 @@ how a scene that fails is made small. Nothing here knows how rtlang reads. What 
 drawn otherwise, is not written. SPDX-License-Identifier: MIT
 """
 import random
+import string
 
 VERSIONS = ["3.7"] * 8 + ["", "", "3.6", "3.6", "3.5", "3.1", "3.1", "3.0", "3.62"]
 LATER_VERSIONS = ["3.7", "3.6", "3.5", "3.1"]
@@ -399,7 +400,16 @@ class Writer:
             lambda: f"box {{ {v(-0.9, -0.5)}, {v(0.5, 0.9)}", lambda: f"box {{ {v(0.5, 0.9)} {v(-0.9, -0.5)}", whole,
             lambda: f"cylinder {{ <{n(-0.2, 0.2)}, {n(-0.9, -0.5)}, 0>, <0, {n(0.5, 0.9)}, {n(-0.2, 0.2)}>, {n(0.4, 0.7)}",
             lambda: f"cone {{ {n(-0.9, -0.6)} * y, {n(0.6, 0.9)}, {n(0.6, 0.9)} * y, {n(0, 0.4)}",
-            lambda: f"torus {{ {n(0.5, 0.8)}, {n(0.15, 0.4)}")
+            lambda: f"torus {{ {n(0.5, 0.8)}, {n(0.15, 0.4)}",
+            lambda: f"prism {{ linear_spline {n(-0.8, -0.4)}, {n(0.3, 0.7)}, 4, <-0.8, {n(-0.7, -0.5)}>, <{n(0.4, 0.9)}, -0.7>, "
+                    f"<{n(-0.2, 0.8)}, {n(0.3, 0.8)}>, <-0.8, {n(-0.7, -0.5)}>",
+            lambda: f"quadric {{ {v(1, 2)}, <{n(-0.5, 0.5)}, 0, {n(-0.5, 0.5)}>, <0, {n(-0.2, 0.2)}, 0>, -0.8",
+            self.letters)
+
+    def letters(self):
+        font = self.dice.choice(["timrom", "cyrvetic", "crystal"])
+        text = "".join(self.dice.choice(string.ascii_letters + string.digits + "!#$%&*+-?@") for _ in range(2))
+        return f'text {{ ttf "{font}.ttf" "{text}" {self.number(0.3, 0.7)}, {self.number(-0.1, 0.2)} * x'
 
     def sheet(self):
         """The head of a shape that has none."""

@@ -283,14 +283,15 @@ static bool layers_have_patterns(Eval *ev, const TextureDesc *layer)
     return true;
 }
 
-// In how many directions bumps may send rays at one point, but for those of flat layers.
+// How many rays bumps and exponents of mirrors may send on from one point, but for those of flat layers without.
 static unsigned layers_ways(const TextureDesc *top)
 {
     unsigned ways = 0;
     for (const TextureDesc *layer = top; layer; layer = layer->below) {
         const Finish *finish = &layer->finish;
         bool has_mirror = !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max);
-        ways += has_bumps(layer) && (layer == top || has_mirror);
+        bool has_power = has_mirror && finish->reflection_exponent != 1.0;
+        ways += has_power || (has_bumps(layer) && (layer == top || has_mirror));
     }
     return ways;
 }
@@ -460,7 +461,7 @@ bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer
         return false;
     }
     if (cost.ways > SCENE_NORMALS_MOST) {
-        return eval_fault(ev, DIAG_E0295, span, "the bumps of this texture send rays in more than %d directions",
+        return eval_fault(ev, DIAG_E0295, span, "the bumps and exponents of this texture send on more than %d rays",
                           (int)SCENE_NORMALS_MOST);
     }
     return patterns_fit(&builder, cost.patterns) &&

@@ -199,7 +199,7 @@ bool text_body(Block *block)
     if (!read_head(block, &head)) {
         return false;
     }
-    switch (font_open(&font, head.real, why, sizeof why)) {
+    switch (font_open(&font, head.real, characters_are_utf8(block->ev), why, sizeof why)) {
     case FONT_NO_MODULE:
         return block_fault(block, DIAG_E0516, block->node->span,
                            "text needs FreeType to read fonts, which this rtlang cannot use: %s", why);

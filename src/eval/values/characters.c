@@ -62,6 +62,11 @@ typedef struct Decoder {
     bool has_blanks; // in the place of what is no ASCII
 } Decoder;
 
+bool characters_are_utf8(const Eval *ev)
+{
+    return ev->charset == CHARSET_UTF8 || (ev->charset == CHARSET_UNSAID && ev->has_mark);
+}
+
 // The length of a character of UTF-8, of any plane; 0: it is none.
 static size_t decode_utf8(Decoder *decoder, const char *at, const char *end)
 {
@@ -84,13 +89,12 @@ static size_t decode_raw(Decoder *decoder, const char *at, const char *end)
         text_append_char(&decoder->out, *at);
         return 1;
     }
-    switch (ev->charset == CHARSET_UNSAID && ev->has_mark ? CHARSET_UTF8 : ev->charset) {
-    case CHARSET_UTF8: return decode_utf8(decoder, at, end);
-    case CHARSET_SYS:
+    if (characters_are_utf8(ev)) {
+        return decode_utf8(decoder, at, end);
+    }
+    if (ev->charset == CHARSET_SYS) {
         eval_fault(ev, DIAG_E0304, decoder->span, "with `charset sys` a string holds ASCII only");
         return 0;
-    case CHARSET_UNSAID:
-    case CHARSET_ASCII: break;
     }
     decoder->has_blanks = decoder->has_blanks || ev->version >= 3.5;
     text_append_utf8(&decoder->out, ev->version < 3.5 ? byte : ' ');

@@ -9,6 +9,9 @@
 
 #include "eval/values/values.h"
 
+// Whether text is UTF-8: `charset utf8`, or a mark at its begin and no `charset`.
+bool characters_are_utf8(const Eval *ev);
+
 // The code of the character at `text`, which is before `end`, and how many bytes it takes.
 unsigned character_at(const char *text, const char *end, size_t *bytes);
 size_t characters_count(const char *text, size_t length);

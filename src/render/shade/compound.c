@@ -48,7 +48,6 @@ RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const T
     }
     scatter->reflectance = rgb_add_scaled(scatter->reflectance, layer->part, reflectance);
     scatter->reflection_weight = greater_of(scatter->reflection_weight, weight);
-    scatter->reflection_exponent = material->finish->reflection_exponent;
     own->reflectance = rgb_add_scaled(own->reflectance, layer->part, reflectance);
     own->weight = greater_of(own->weight, weight);
 }
@@ -128,18 +127,19 @@ typedef struct BumpSum {
     bool has_stack;
 } BumpSum;
 
-// The way on for a normal; there is room for as many as the evaluator lets a texture have.
-static int way_for(BumpSum *bumps, Vec3 normal)
+// The way on for a normal and what its mirror raises light to; there is room for as many as the evaluator lets a texture
+// have.
+static int way_for(BumpSum *bumps, Vec3 normal, double exponent)
 {
     ShadeWays *ways = bumps->ways;
     int i = 0;
     while (i < ways->count && (ways->normals[i].x != normal.x || ways->normals[i].y != normal.y ||
-                               ways->normals[i].z != normal.z)) {
+                               ways->normals[i].z != normal.z || ways->scatter[i].reflection_exponent != exponent)) {
         i++;
     }
     if (i == ways->count && ways->count < SHADE_WAYS_MAX) {
         ways->normals[i] = normal;
-        ways->scatter[i] = (ScatterRecord){.reflection_exponent = 1.0, .refraction = bumps->refraction};
+        ways->scatter[i] = (ScatterRecord){.reflection_exponent = exponent, .refraction = bumps->refraction};
         bumps->sum.own[i] = (ShadeMirror){.weight = 0.0};
         ways->count++;
     }
@@ -156,7 +156,7 @@ static void end_stack(BumpSum *bumps)
         return;
     }
     Vec3 normal = sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal;
-    ScatterRecord *way = &bumps->ways->scatter[way_for(bumps, normal)];
+    ScatterRecord *way = &bumps->ways->scatter[way_for(bumps, normal, 1.0)];
     way->through = rgb_add_scaled(way->through, stack->part, sum->through);
     way->through_weight = greater_of(way->through_weight, rgb_max_abs(sum->through));
     way->part += stack->part;
@@ -183,7 +183,7 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     ShadeMaterial material = shade_material(sum->p, ALL_FEATURES, layer->pigment, layer->finish);
     Rgb reflectance, left = shade_left_below(sum->p, ALL_FEATURES, &material, &at);
     if (shade_mirror(sum->p, ALL_FEATURES, &material, &at, &reflectance)) {
-        int way = way_for(bumps, at.normal);
+        int way = way_for(bumps, at.normal, material.finish->reflection_exponent);
         add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, &bumps->ways->scatter[way], &sum->own[way]);
     }
     sum->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
@@ -206,7 +206,7 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
     texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_bumpy_layer, &bumps);
     end_stack(&bumps);
     if (ways->count == 0) {
-        way_for(&bumps, at->normal);
+        way_for(&bumps, at->normal, 1.0);
     }
     return bumps.sum.light;
 }
