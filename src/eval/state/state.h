@@ -225,6 +225,8 @@ void eval_frame_leave(Eval *ev);
 bool eval_cancelled(Eval *ev);
 // Counts a turn of a loop or a call; false, with `stop` set, when there were too many.
 bool eval_step(Eval *ev, Span span) RT_MUST_CHECK;
+// The same of a turn or call that runs through so much of the scene's text.
+bool eval_turn(Eval *ev, Span text, Span span) RT_MUST_CHECK;
 // Counts work on so many bytes of strings as steps that take as long; false as eval_step.
 bool eval_work(Eval *ev, size_t bytes, Span span) RT_MUST_CHECK;
 // Reports that evaluation nests too deeply and sets `stop`; returns false.

@@ -197,7 +197,7 @@ unsigned function_width(const Function *function)
 static bool run_body(Eval *ev, const Function *function, const double *arguments, Span span, double *number)
 {
     FunctionRun run;
-    if (!eval_step(ev, span)) {
+    if (!eval_turn(ev, function->span, span)) {
         return false;
     }
     run.ev = ev;
