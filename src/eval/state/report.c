@@ -213,7 +213,8 @@ bool eval_step(Eval *ev, Span span)
 
 bool eval_turn(Eval *ev, Span text, Span span)
 {
-    return take_steps(ev, 1 + (text.end - text.begin) / TEXT_A_STEP, span);
+    uint64_t bytes = text.end > text.begin ? text.end - text.begin : 0;
+    return take_steps(ev, 1 + bytes / TEXT_A_STEP, span);
 }
 
 bool eval_work(Eval *ev, size_t bytes, Span span)
