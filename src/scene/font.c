@@ -23,7 +23,7 @@ FontResult font_open(Font *font, const char *path, char *why, size_t size)
     font->module = module;
     font->face = font->module->open(path, &units, why, size);
     font->unit = 1.0 / units;
-    return font->face ? FONT_OK : FONT_NONE;
+    return font->face ? FONT_OK : why[0] != '\0' ? FONT_NONE : FONT_NO_MEMORY;
 #else
     (void)path;
     *font = (Font){.module = NULL};
@@ -74,6 +74,9 @@ FontResult font_letter(Font *font, uint32_t character, Arena *arena, FontLetter 
     Pen pen = {.unit = font->unit};
     *letter = (FontLetter){.index = 0};
     bool has_outline = font->module->glyph(font->face, character, &glyph);
+    if (font->module->is_out_of_memory(font->face)) {
+        return FONT_NO_MEMORY;
+    }
     letter->index = glyph.index;
     letter->advance = font->unit * glyph.advance;
     letter->bearing = font->unit * glyph.bearing;

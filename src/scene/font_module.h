@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 // Raised with each change of the structures below; a module of another version is passed over.
-#define FONT_MODULE_VERSION 1u
+#define FONT_MODULE_VERSION 2u
 #define FONT_MODULE_FILE "rtlang_font.so"
 #define FONT_MODULE_SYMBOL "rtlang_font_module"
 
@@ -26,9 +26,12 @@ typedef bool (*FontPen)(void *client, const double points[8]);
 
 typedef struct FontModule {
     unsigned version; // stays the first member
-    // A TrueType font, or the first one of a collection; NULL where there is none, and `why` in a few words.
+    // A TrueType font, or the first one of a collection; NULL where there is none, and `why` in a few words, or empty
+    // when out of memory.
     FontFace *(*open)(const char *path, double *units, char *why, size_t size);
     void (*close)(FontFace *face);
+    // Whether memory ran out since it was opened, so that letters and kerning may be wrong.
+    bool (*is_out_of_memory)(const FontFace *face);
     // What stands for a character; that of none, where the font has not this one.
     bool (*glyph)(FontFace *face, uint32_t character, FontGlyph *glyph);
     // How much nearer to each other two glyphs stand, less than 0, or farther.
