@@ -61,6 +61,8 @@ fuzz_fuzz_partial_SOURCES = %D%/fuzz_partial.c %D%/fuzz.h
 fuzz_fuzz_partial_LDADD = libshare.la libimage.la libbase.la $(LIB_FUZZING_ENGINE)
 
 TESTS += %D%/replay.py
+.PHONY: fuzz-replays
+fuzz-replays: $(fuzz_replays) rtlang_jpeg.la
 EXTRA_DIST += %D%/replay.py %D%/make_seeds.py %D%/make_dictionary.py %D%/run %D%/corpus %D%/oss-fuzz
 
 # What a fuzzer needs beside a build for it: programs, dictionaries and seeds.
