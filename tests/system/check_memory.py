@@ -16,6 +16,7 @@ from tap import Tap
 RTLANG = os.path.abspath(os.environ["RTLANG"])
 SOURCE = os.path.join(os.environ["top_srcdir"], "tests", "system", "failing_memory.c")
 OLD = b"an old picture"
+LOST_BY_LOADER = 1  # glibc 2.36 loses a block where dlopen fails in _dl_find_object_update
 TAKEN = None if os.environ.get("MEMORY_ALL") else 50
 tap = Tap()
 
@@ -85,6 +86,7 @@ class Run:
     """One run of the program with allocation number `at` failing, 0: none."""
 
     def __init__(self, arguments, at, goes_on=False):
+        self.arguments = arguments
         write("old.png", OLD)
         before = set(os.listdir())
         how = {"LD_PRELOAD": os.path.abspath("failing.so"), "FAIL_AT": str(at), "FAIL_LOG": "log", "LC_ALL": "C"}
@@ -105,7 +107,7 @@ class Run:
         """What is wrong with it, or None."""
         if self.left:
             return "left over: %s" % self.left
-        if self.held > good.held:
+        if self.held > good.held + (LOST_BY_LOADER if "letters.scn" in self.arguments else 0):
             return "%d blocks leak" % (self.held - good.held)
         if (self.code, self.said, self.picture) == (good.code, good.said, good.picture):
             return None
