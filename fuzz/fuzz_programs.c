@@ -264,15 +264,23 @@ static void add_statement(Writer *writer)
         }
         add_object(writer, 1);
         break;
-    case 6: add_branches(writer); break;
-    case 7: add_loop(writer); break;
-    case 8: add_macro(writer); break;
+    case 6:
+        add_branches(writer);
+        break;
+    case 7:
+        add_loop(writer);
+        break;
+    case 8:
+        add_macro(writer);
+        break;
     case 9:
         ADD("#declare F%u = function (x) { ", writer->functions);
         ADD("x*%u + sin(x)%s }\n", choose(writer, 5), choose(writer, 2) ? " - abs(x - 1)" : "");
         writer->functions++;
         break;
-    default: add_object(writer, 2); break;
+    default:
+        add_object(writer, 2);
+        break;
     }
 }
 

@@ -52,7 +52,7 @@ struct SourceMap {
     ARRAY(Source *) sources; // in order of base
     InternTable *files;      // device and number of each
     uint64_t next_base;
-    uint64_t bytes;          // of texts, each file once
+    uint64_t bytes; // of texts, each file once
     uint64_t bytes_read;
     const atomic_bool *cancel; // may be NULL
     size_t memory_bytes;       // most that is kept of one text

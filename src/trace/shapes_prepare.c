@@ -221,8 +221,7 @@ static bool fill_meshes(ShapeTable *table, const Scene *scene, InternTable *know
         if (!solid->mesh.table || faces + part->mesh.mesh->face_count >= 1u << SHAPE_INDEX_BITS) {
             return false;
         }
-        solid->mesh.materials =
-            scene->face_materials.items ? scene->face_materials.items + part->mesh.materials : NULL;
+        solid->mesh.materials = scene->face_materials.items ? scene->face_materials.items + part->mesh.materials : NULL;
         solid->mesh.first_face = (uint32_t)faces;
         faces += part->mesh.mesh->face_count;
         table->mesh_solids[table->mesh_solid_count++] = i;

@@ -296,7 +296,7 @@ def slowness():
 def test_ends(name, text, slow):
     write("hostile.scn", text.replace("SELF", "hostile.scn"))
     code, said, seconds, peak = run("-q", "-W4", "-H3", "-t1", *STEPS, "--allow-write=.", "-o", "x.png", "hostile.scn")
-    located = re.search(r"(?m)^\S+:\d+:\d+: error\[E(0490|036\d|06\d\d)\]|^rtlang: error\[E06\d\d\]", said)
+    located = re.search(r"(?m)^\S+:\d+:\d+: error\[E(049[04]|036\d|06\d\d)\]|^rtlang: error\[E06\d\d\]", said)
     ends = code in (0, 1, 3) and seconds <= SECONDS * slow
     at_limit = code == 4 and located and seconds <= SECONDS_AT_LIMIT * slow
     tap.ok((ends or at_limit) and peak <= BYTES * 1.2, name,

@@ -54,10 +54,10 @@ __attribute__((unused)) static Vec3 random_point(Random *random, double size)
 
 // ---- the tree against testing every sphere
 
-// Every sphere in order of declaration; a later one has to be strictly nearer, and so by exact arithmetic where the roots
-// are the same but for their last bits.
+// Every sphere in order of declaration; a later one has to be strictly nearer, and so by exact arithmetic where the
+// roots are the same but for their last bits.
 __attribute__((unused)) static double brute_force(const Scene *scene, const SphereRay *ray, const SphereData *start,
-                                                           bool inward, double t_max, uint32_t *order)
+                                                  bool inward, double t_max, uint32_t *order)
 {
     double t_best = t_max;
     SphereData best = *start;

@@ -384,8 +384,7 @@ static void next_turn(Expansion *expansion, CursorFrame *frame)
     Eval *ev = expansion_eval(expansion);
     bool holds;
     frame->text.at = 0;
-    bool fine = has_turn(expansion->cursor, frame, &holds) &&
-                (!holds || take_turn(ev, frame)) && !ev->stop;
+    bool fine = has_turn(expansion->cursor, frame, &holds) && (!holds || take_turn(ev, frame)) && !ev->stop;
     if (!fine) {
         ev->faulty = true;
         expansion_fail(expansion);

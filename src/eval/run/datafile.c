@@ -15,7 +15,7 @@
 
 enum {
     BLOCK_BYTES = 64 << 10,
-    WORK_OF_A_BYTE = 2, // of a comment, say
+    WORK_OF_A_BYTE = 2,              // of a comment, say
     LONGEST_VALUE = 255,             // characters of a number or a string, as in scenes
     LOOK_AHEAD = LONGEST_VALUE + 33, // at hand wherever a number begins
 };

@@ -152,7 +152,7 @@ struct Eval {
     ARRAY(struct Probe *) probes; // objects that were traced, see probe.c
     InternTable *probed;          // the address of each, by the same numbers from 1; NULL as long as there is none
     ARRAY(Painted *) painted; // functions of patterns and pigments, see painted.c
-    size_t opened_bytes;          // of what tracer and painter hold for both
+    size_t opened_bytes;      // of what tracer and painter hold for both
     enum { CHARSET_UNSAID, CHARSET_ASCII, CHARSET_UTF8, CHARSET_SYS } charset; // of strings in the text
     bool has_mark;                // which is UTF-8 unless the scene says otherwise
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
