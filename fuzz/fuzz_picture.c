@@ -7,24 +7,9 @@
 #include <string.h>
 
 #include "fuzz/fuzz.h"
+#include "fuzz/fuzz_samples.h"
 #include "image/image.h"
 #include "image/picture_file.h"
-
-// Reads every sample, so that a missing one is seen by a sanitizer.
-static void look_at(const PictureFile *file)
-{
-    size_t bytes = file->depth == IMAGE_DEPTH_8 ? 1 : file->depth == IMAGE_DEPTH_16 ? 2 : 4;
-    size_t count = (size_t)file->width * (size_t)file->height * (size_t)file->channels * bytes;
-    const unsigned char *samples = file->samples;
-    unsigned sum = 0;
-    FUZZ_HOLDS(file->width > 0 && file->height > 0 && file->channels >= 1 && file->channels <= 4);
-    FUZZ_HOLDS(file->palette_count >= 0 && file->palette_count <= PICTURE_PALETTE_MAX);
-    FUZZ_HOLDS(file->palette_count == 0 || file->channels == 1);
-    for (size_t i = 0; i < count; i++) {
-        sum += samples[i];
-    }
-    *(volatile unsigned *)&sum = sum;
-}
 
 // CRC-32 of PNG's specification, bit by bit.
 static uint32_t checksum(const uint8_t *data, size_t size)
@@ -84,7 +69,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     }
     if (picture_file_read(path, NULL, &limit, &file, &error) == IMAGE_OK) {
-        look_at(&file);
+        fuzz_look_at(&file);
         picture_file_fini(&file);
     } else {
         FUZZ_HOLDS(file.samples == NULL);

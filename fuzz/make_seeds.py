@@ -13,8 +13,8 @@ import sys
 import zlib
 
 # Each target, and the kind of its files.
-TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "world": "text", "calls": "calls", "picture": "picture",
-           "ini": "ini", "partial": "partial"}
+TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "world": "text", "programs": "programs", "tree": "tree",
+           "calls": "calls", "picture": "picture", "reader": "reader", "ini": "ini", "partial": "partial"}
 
 
 def lang_cases(top):
@@ -87,11 +87,51 @@ def partials():
     yield "cut", (head + sealed(head) + records)[:-7]
 
 
-def calls():
-    """Orders of calls of rtlang.h, by chance."""
+def chosen(count, longest):
+    """Bytes by chance, for what takes them as choices."""
     chance = random.Random(1)
-    for number in range(200):
-        yield "%03d" % number, chance.randbytes(chance.randrange(50, 1500))
+    for number in range(count):
+        yield "%03d" % number, chance.randbytes(chance.randrange(50, longest))
+
+
+def tiff(bits, samples, planar):
+    """An uncompressed TIFF of 3 by 2 pixels."""
+    data = bytes((37 * i) % 256 for i in range(6 * samples * bits // 8))
+    tags = [(256, 3), (257, 2), (258, bits), (259, 1), (262, 1 if samples == 1 else 2), (273, 8), (277, samples),
+            (278, 2), (279, len(data)), (284, planar)]
+    entries = b"".join(struct.pack("<HHII", tag, 4 if tag in (273, 279) else 3, 1, value) for tag, value in tags)
+    return struct.pack("<2sHI", b"II", 42, 8 + len(data)) + data + struct.pack("<H", len(tags)) + entries + bytes(4)
+
+
+def exr():
+    """An uncompressed OpenEXR of 3 by 2 pixels in half floats."""
+    def attribute(name, kind, data):
+        return name + b"\0" + kind + b"\0" + struct.pack("<I", len(data)) + data
+
+    window = struct.pack("<4i", 0, 0, 2, 1)
+    channels = b"".join(name + b"\0" + struct.pack("<IIII", 1, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    head = (b"\x76\x2f\x31\x01\x02\0\0\0" + attribute(b"channels", b"chlist", channels) +
+            attribute(b"compression", b"compression", b"\0") + attribute(b"dataWindow", b"box2i", window) +
+            attribute(b"displayWindow", b"box2i", window) + attribute(b"lineOrder", b"lineOrder", b"\0") +
+            attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)) +
+            attribute(b"screenWindowCenter", b"v2f", bytes(8)) +
+            attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0")
+    rows = [struct.pack("<iI", y, 18) + struct.pack("<9e", *range(9)) for y in range(2)]
+    first = len(head) + 16
+    return head + struct.pack("<QQ", first, first + len(rows[0])) + b"".join(rows)
+
+
+def readers():
+    """A byte that says the format, and a file of it."""
+    yield "tga", b"\0" + struct.pack("<BBB5xHHHHBB", 0, 0, 2, 0, 0, 3, 2, 24, 0) + bytes(range(18))
+    yield "tga_packed", b"\0" + struct.pack("<BBB5xHHHHBB", 0, 0, 10, 0, 0, 3, 2, 24, 0) + b"\x82abc\x02abcdefghi"
+    yield "ppm", b"\1P6 3 2 255\n" + bytes(range(18))
+    yield "ppm_text", b"\1P3 2 1 15\n1 2 3 # a comment\n4 5 15\n"
+    yield "pgm", b"\2P5 3 2 65535\n" + bytes(range(12))
+    for bits, samples, planar in (8, 1, 1), (8, 3, 1), (16, 3, 1), (8, 4, 2):
+        yield "tiff_%d_%d_%d" % (bits, samples, planar), b"\3" + tiff(bits, samples, planar)
+    yield "exr", b"\4" + exr()
+    yield "hdr", b"\5#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 3\n" + bytes(range(100, 124))
 
 
 def write_seeds(top, folder):
@@ -100,7 +140,8 @@ def write_seeds(top, folder):
         with open(path, "rb") as file:
             texts.append((os.path.basename(path), file.read()))
     for kind, files in {"text": texts, "picture": pictures(top), "ini": option_files(top),
-                        "partial": partials(), "calls": calls()}.items():
+                        "partial": partials(), "calls": chosen(200, 1500), "programs": chosen(100, 600),
+                        "tree": chosen(60, 1000), "reader": readers()}.items():
         os.makedirs(os.path.join(folder, kind), exist_ok=True)
         for name, data in files:
             with open(os.path.join(folder, kind, name), "wb") as file:

@@ -348,7 +348,7 @@ check-growth: rtlang$(EXEEXT)
 # The run ends with what it left out, and why.
 check-local: check-TESTS
 	@test ! -e $(TEST_SUITE_LOG) || $(AWK) -f $(srcdir)/%D%/skipped.awk $(TEST_SUITE_LOG)
-EXTRA_DIST += %D%/skipped.awk %D%/coverage %D%/coverage.py
+EXTRA_DIST += %D%/skipped.awk %D%/coverage %D%/coverage.py %D%/lint
 
 TESTS += $(unit_programs) tests/fuzz/fuzz_exponents tests/exact/test_exact tests/lang/typos $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests

@@ -14,10 +14,10 @@ cd "$WORK/rtlang"
 # The engine is C++.
 make -j"$(nproc)" CCLD="$CXX" LIB_FUZZING_ENGINE="$LIB_FUZZING_ENGINE" fuzz-build
 
-for target in grammar scene dump world calls picture ini partial; do
+for target in grammar scene dump world programs tree calls picture ini partial; do
     name=fuzz_$target
     case $target in
-        picture | ini | partial | calls) kind=$target ;;
+        picture | ini | partial | calls | programs | tree) kind=$target ;;
         *) kind=text ;;
     esac
     cp "fuzz/$name" "$OUT/"

@@ -37,4 +37,9 @@ static void painter_close(void *opened)
     free(opened);
 }
 
-const EvalPainter painter = {painter_open, painter_value, painter_colour, painter_close};
+static size_t painter_bytes(const void *opened)
+{
+    return texture_table_bytes(opened);
+}
+
+const EvalPainter painter = {painter_open, painter_value, painter_colour, painter_bytes, painter_close};

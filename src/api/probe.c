@@ -33,4 +33,9 @@ static bool probe_closest(const void *geometry, Vec3 origin, Vec3 direction, con
     return true;
 }
 
-const EvalTracer probe_tracer = {probe_open, probe_closest, probe_close};
+static size_t probe_bytes(const void *geometry)
+{
+    return geometry_bytes(geometry);
+}
+
+const EvalTracer probe_tracer = {probe_open, probe_closest, probe_bytes, probe_close};

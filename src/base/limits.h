@@ -23,7 +23,7 @@ typedef struct Limits {
     unsigned ast_depth;     // nesting of expressions and blocks
     unsigned include_depth; // nesting of #include
     unsigned call_depth;    // nesting of macro calls
-    uint64_t steps;         // loop turns, calls of macros and functions, and work on strings, all together
+    uint64_t steps;         // loop turns and calls, by how long their text is, and work on strings, all together
     uint64_t message_bytes; // text of #debug and its like, all together
     size_t string_bytes;    // of one string
     uint64_t objects;       // shapes in the scene

@@ -9,9 +9,11 @@
 #include "base/module.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <limits.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -42,6 +44,13 @@ static bool is_loaded(const char *path)
     return handle && dlclose(handle) == 0;
 }
 
+// Whether it was memory that the loader wanted, in its own words or the system's.
+static bool is_memory(int reason, const char *text)
+{
+    return reason == ENOMEM || !text || strstr(text, strerror(ENOMEM)) || strstr(text, "cannot allocate") ||
+           strstr(text, "out of memory");
+}
+
 static ModuleResult load_from(const char *folder, const ModuleKind *kind, const void **module, char *why, size_t size)
 {
     char path[PATH_MAX];
@@ -55,10 +64,13 @@ static ModuleResult load_from(const char *folder, const ModuleKind *kind, const 
         return MODULE_NO_MEMORY;
     }
     // Not unloaded: OpenImageIO keeps threads, and a handle is counted, not copied.
+    errno = 0;
     handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (!handle) {
-        snprintf(why, size, "%s", dlerror());
-        return MODULE_NONE;
+        int reason = errno;
+        const char *text = dlerror();
+        snprintf(why, size, "%s", text ? text : "");
+        return is_memory(reason, text) ? MODULE_NO_MEMORY : MODULE_NONE;
     }
     version = dlsym(handle, kind->symbol);
     if (!version || *version != kind->version) {

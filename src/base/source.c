@@ -30,7 +30,10 @@ SourceMap *source_map_new(void)
     map->memory_bytes = SIZE_MAX;
     map->again_file = NO_FILE;
     map->names = intern_new(SIZE_MAX);
-    if (!map->names) {
+    map->files = intern_new(SIZE_MAX);
+    if (!map->names || !map->files) {
+        intern_free(map->names);
+        intern_free(map->files);
         free(map);
         return NULL;
     }
@@ -44,7 +47,7 @@ void source_map_set_cancel(SourceMap *map, const atomic_bool *cancel)
 
 uint64_t source_map_bytes(const SourceMap *map)
 {
-    return map->next_base;
+    return map->bytes;
 }
 
 void source_map_set_memory(SourceMap *map, size_t bytes)
@@ -73,6 +76,7 @@ void source_map_free(SourceMap *map)
     source_file_close(&map->again_file);
     ARRAY_FREE(&map->sources);
     intern_free(map->names);
+    intern_free(map->files);
     arena_fini(&map->arena);
     free(map);
 }
@@ -95,6 +99,7 @@ static Source *source_add(SourceMap *map, const char *name, int file, char *kept
                        .kept = kept,
                        .file = file};
     map->next_base += size + 1;
+    map->bytes += size + 1;
     map->sources.items[map->sources.count++] = source;
     return source;
 }
@@ -150,6 +155,24 @@ static SourceResult pipe_read(const SourceMap *map, int file, uint64_t limit_byt
     return SOURCE_OK;
 }
 
+// Remembers the file; what was opened before takes no more memory for its text.
+static bool source_know_file(Source *source, const struct stat *status)
+{
+    char key[sizeof status->st_dev + sizeof status->st_ino];
+    SourceMap *map = source->map;
+    size_t known = intern_count(map->files);
+    memcpy(key, &status->st_dev, sizeof status->st_dev);
+    memcpy(key + sizeof status->st_dev, &status->st_ino, sizeof status->st_ino);
+    source->device = status->st_dev;
+    source->number = status->st_ino;
+    if (intern_text(map->files, key, sizeof key) == SYMBOL_NONE) {
+        return false;
+    }
+    source->is_again = intern_count(map->files) == known;
+    map->bytes -= source->is_again ? source->size + 1 : 0;
+    return true;
+}
+
 // Decides by the kind of file whether it can be read again later, and enters it.
 static SourceResult source_enter(SourceMap *map, const char *name, int file, uint64_t limit_bytes, Source **source)
 {
@@ -183,9 +206,7 @@ static SourceResult source_enter(SourceMap *map, const char *name, int file, uin
         errno = 0;
         return SOURCE_NO_MEMORY;
     }
-    (*source)->device = status.st_dev;
-    (*source)->number = status.st_ino;
-    return SOURCE_OK;
+    return source_know_file(*source, &status) ? SOURCE_OK : SOURCE_NO_MEMORY;
 }
 
 // Enters a file that was opened, or says why it was not; closes it unless the source keeps it.
@@ -313,6 +334,7 @@ void source_drop(Source *source)
     if (map->sources.count > 0 && map->sources.items[map->sources.count - 1] == source && map->again != source) {
         map->sources.count--;
         map->next_base = source->base;
+        map->bytes -= source->is_again ? 0 : source->size + 1;
         source_fini(source);
     }
 }
@@ -448,6 +470,11 @@ const char *source_name(const Source *source)
 uint64_t source_bytes_read(const SourceMap *map)
 {
     return map->bytes_read;
+}
+
+bool source_is_again(const Source *source)
+{
+    return source->is_again;
 }
 
 Span source_extent(const Source *source)

@@ -70,7 +70,7 @@ void source_map_free(SourceMap *map);          // closes everything
 // When the flag turns true, opening and reading stop soon. It must outlive the map; NULL, as at first: never.
 void source_map_set_cancel(SourceMap *map, const atomic_bool *cancel);
 
-// Bytes of all texts that were opened.
+// Bytes of all texts that were opened; a file that was opened several times counts once.
 uint64_t source_map_bytes(const SourceMap *map);
 
 // How many bytes may be kept of one pipe or device; at first any number.
@@ -129,6 +129,7 @@ void source_seek(Source *source, uint64_t position);
 
 void source_close(Source *source);
 
+bool source_is_again(const Source *source); // its file was opened before, by this name or another
 Span source_extent(const Source *source); // of the whole text, as far as it was read or is a file
 uint64_t source_base(const Source *source); // the global offset of its first byte
 const char *source_name(const Source *source);

@@ -38,6 +38,7 @@ struct Source {
     char *kept;        // the text, if it cannot be read twice
     uint64_t position; // of source_read
     bool is_list;      // without text
+    bool is_again;     // its file was opened before
     bool is_of_scene;  // a scene asked for it by its name, and it is not in the map's digest yet
     LineIndex *lines;  // checkpoint k stands at k * BLOCK; NULL until a message asks
     int file;          // NO_FILE when closed or kept
@@ -49,7 +50,9 @@ struct SourceMap {
     Arena arena; // entries
     InternTable *names;
     ARRAY(Source *) sources; // in order of base
+    InternTable *files;      // device and number of each
     uint64_t next_base;
+    uint64_t bytes; // of texts, each file once
     uint64_t bytes_read;
     const atomic_bool *cancel; // may be NULL
     size_t memory_bytes;       // most that is kept of one text

@@ -58,8 +58,9 @@ static void copy_line(Walk *walk)
 // Comments of this kind nest.
 static void copy_comment(Walk *walk)
 {
-    int depth = 1, c = copy_one(walk);
+    int depth = 1, c;
 
+    copy_one(walk);
     while (depth > 0 && (c = copy_one(walk)) != EOF) {
         if (c == '/' && peek(walk) == '*') {
             depth++;

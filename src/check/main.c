@@ -422,6 +422,7 @@ static int scenes_report(Check *check)
         exit_code = report_complain(check->options, folder);
     }
     scenes_report_fini(&report);
+    check->report = NULL;
     return exit_code;
 }
 

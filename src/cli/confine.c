@@ -55,11 +55,14 @@ typedef struct __attribute__((packed)) PathRule {
 enum { __NR_landlock_create_ruleset = 444, __NR_landlock_add_rule = 445, __NR_landlock_restrict_self = 446 };
 #endif
 
-// Sanitizers look at a program from processes of their own, and valgrind knows none of this.
+// Sanitizers look at a program from processes of their own, valgrind knows none of this, and what counts the lines that
+// a test reaches writes files beside the objects.
 static const char *stands_back(void)
 {
     const char *preloaded = getenv("LD_PRELOAD");
-#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+#if defined RTLANG_COVERAGE
+    return "none: built with --coverage";
+#elif defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
     return "none: built with a sanitizer";
 #elif defined __has_feature
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)

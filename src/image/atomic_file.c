@@ -114,7 +114,7 @@ static bool open_beside(AtomicFile *file)
 {
     file->fd = open_unnamed(file->path);
     if (file->fd < 0) {
-        file->fd = open_named(file->path, &file->temporary);
+        file->fd = open_named(file->path, &file->temporary); // NOLINT(clang-analyzer-unix.Malloc): the path stays
     } else {
         file->temporary = strdup("");
         if (!file->temporary) {

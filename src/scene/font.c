@@ -23,7 +23,7 @@ FontResult font_open(Font *font, const char *path, bool is_unicode, char *why, s
     font->module = module;
     font->face = font->module->open(path, is_unicode, &units, why, size);
     font->unit = 1.0 / units;
-    return font->face ? FONT_OK : FONT_NONE;
+    return font->face ? FONT_OK : why[0] != '\0' ? FONT_NONE : FONT_NO_MEMORY;
 #else
     (void)path;
     (void)is_unicode;
@@ -75,6 +75,9 @@ FontResult font_letter(Font *font, uint32_t character, Arena *arena, FontLetter 
     Pen pen = {.unit = font->unit};
     *letter = (FontLetter){.index = 0};
     bool has_outline = font->module->glyph(font->face, character, &glyph);
+    if (font->module->is_out_of_memory(font->face)) {
+        return FONT_NO_MEMORY;
+    }
     letter->index = glyph.index;
     letter->advance = font->unit * glyph.advance;
     letter->bearing = font->unit * glyph.bearing;

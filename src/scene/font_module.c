@@ -10,13 +10,17 @@
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_MODULE_H
 #include FT_OUTLINE_H
 #include FT_FONT_FORMATS_H
+#include FT_SYSTEM_H
 #include FT_TRUETYPE_IDS_H
 #include FT_TRUETYPE_TABLES_H
 #include FT_TRUETYPE_TAGS_H
 
 struct FontFace {
+    struct FT_MemoryRec_ memory;
+    bool is_out_of_memory;
     FT_Library library;
     FT_Face face;
 };
@@ -28,18 +32,50 @@ typedef struct Walk {
     bool is_open;
 } Walk;
 
+// ---- memory of FreeType, so that a want of it is known from all else that may be wrong with a font
+
+static void *take(FT_Memory memory, long size)
+{
+    FontFace *font = memory->user;
+    void *block = malloc((size_t)size);
+    font->is_out_of_memory = font->is_out_of_memory || !block;
+    return block;
+}
+
+static void give_back(FT_Memory memory, void *block)
+{
+    (void)memory;
+    free(block);
+}
+
+static void *take_more(FT_Memory memory, long old_size, long size, void *block)
+{
+    FontFace *font = memory->user;
+    void *moved = realloc(block, (size_t)size);
+    (void)old_size;
+    font->is_out_of_memory = font->is_out_of_memory || !moved;
+    return moved;
+}
+
+static bool font_is_out_of_memory(const FontFace *font)
+{
+    return font->is_out_of_memory;
+}
+
+// ---- opening and closing
+
 static void font_close(FontFace *font)
 {
     if (font) {
-        FT_Done_Face(font->face); // NULL is accepted
-        FT_Done_FreeType(font->library);
+        FT_Done_Face(font->face);       // NULL is accepted
+        FT_Done_Library(font->library); // likewise
         free(font);
     }
 }
 
 static FontFace *refuse(FontFace *font, const char *text, char *why, size_t size)
 {
-    snprintf(why, size, "%s", text);
+    snprintf(why, size, "%s", font && !font->is_out_of_memory ? text : "");
     font_close(font);
     return NULL;
 }
@@ -61,12 +97,13 @@ static FontFace *font_open(const char *path, bool is_unicode, double *units, cha
 {
     FontFace *font = calloc(1, sizeof *font);
     if (!font) {
-        return refuse(font, "out of memory", why, size);
+        return refuse(font, "", why, size);
     }
-    if (FT_Init_FreeType(&font->library)) {
-        free(font);
-        return refuse(NULL, "FreeType cannot be used", why, size);
+    font->memory = (struct FT_MemoryRec_){font, take, give_back, take_more};
+    if (FT_New_Library(&font->memory, &font->library)) {
+        return refuse(font, "FreeType cannot be used", why, size);
     }
+    FT_Add_Default_Modules(font->library);
     if (FT_New_Face(font->library, path, 0, &font->face)) {
         return refuse(font, "it is no font", why, size);
     }
@@ -238,6 +275,7 @@ const FontModule rtlang_font_module = {
     .version = FONT_MODULE_VERSION,
     .open = font_open,
     .close = font_close,
+    .is_out_of_memory = font_is_out_of_memory,
     .glyph = font_glyph,
     .kerning = font_kerning,
     .draw = font_draw,

@@ -27,10 +27,13 @@ typedef bool (*FontPen)(void *client, const double points[8]);
 
 typedef struct FontModule {
     unsigned version; // stays the first member
-    // A TrueType font, or the first one of a collection; NULL where there is none, and `why` in a few words. Characters
-    // are Unicode's, or else the numbers that its table for the Macintosh has, where it has one.
+    // A TrueType font, or the first one of a collection; NULL where there is none, and `why` in a few words, or empty
+    // when out of memory. Characters are Unicode's, or else the numbers that its table for the Macintosh has, where it
+    // has one.
     FontFace *(*open)(const char *path, bool is_unicode, double *units, char *why, size_t size);
     void (*close)(FontFace *face);
+    // Whether memory ran out since it was opened, so that letters and kerning may be wrong.
+    bool (*is_out_of_memory)(const FontFace *face);
     // What stands for a character; that of none, where the font has not this one.
     bool (*glyph)(FontFace *face, uint32_t character, FontGlyph *glyph);
     // How much nearer to each other two glyphs stand, less than 0, or farther.

@@ -473,6 +473,8 @@ int ranks_agree(Ranks *ranks, bool ready, const PartialHead *head, PartialField 
         ranks->module->broadcast(&length, sizeof length);
         char *theirs = malloc((size_t)length + 1);
         if (!theirs || !all) {
+            free(theirs);
+            free(all);
             ranks->module->stop(4);
             return 0;
         }

@@ -319,7 +319,7 @@ RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, Ray
         p->objects[index] = solid_ray(solid, p->ray);
         object = &p->objects[index];
     }
-    if (!is_start || inward || !solid_is_convex(solid)) {
+    if (solid_is_convex(solid) ? !is_start || inward : !shapes_are_abandoned(p->table)) {
         SideLeft left = {is_start ? part_side(start.shape) : SIDE_NONE, inward};
         count = solid_intervals(solid, object, left, intervals);
     }

@@ -122,6 +122,12 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
 void shapes_fini(ShapeTable *table);
 size_t shapes_bytes(const ShapeTable *table);
 
+// Whether what is found of a ray does not count any more.
+static inline bool shapes_are_abandoned(const ShapeTable *table)
+{
+    return table->abandon && trace_is_abandoned(table->abandon);
+}
+
 // Whether a ray starts on another surface that a solid's own may coincide with but for rounding: one of the same family.
 // Such a ray has passed what lies within rounding of its start.
 static inline bool starts_beside(const ShapeTable *table, RayStart start, const Solid *solid)

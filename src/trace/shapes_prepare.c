@@ -4,6 +4,7 @@
 #include <float.h>
 #include <stdlib.h>
 
+#include "base/intern.h"
 #include "scene/part.h"
 #include "trace/csg_parts.h"
 #include "trace/half_spaces.h"
@@ -192,12 +193,12 @@ static void nodes_init(ShapeTable *table, const Scene *scene)
 // ---- meshes
 
 // The table of a mesh, built when it is met first; NULL when out of memory or cancelled.
-static const MeshTable *mesh_table(ShapeTable *table, const Mesh *mesh, int threads, const atomic_bool *cancel)
+static const MeshTable *mesh_table(ShapeTable *table, InternTable *known, const Mesh *mesh, int threads,
+                                   const atomic_bool *cancel)
 {
-    for (uint32_t i = table->mesh_count; i-- > 0;) { // copies mostly follow each other
-        if (table->meshes[i]->mesh == mesh) {
-            return table->meshes[i];
-        }
+    Symbol number = intern_text(known, (const char *)&mesh, sizeof mesh);
+    if (number == SYMBOL_NONE || number <= table->mesh_count) {
+        return number == SYMBOL_NONE ? NULL : table->meshes[number - 1];
     }
     MeshTable *made = mesh_table_new(mesh, threads, cancel);
     if (made) {
@@ -206,10 +207,31 @@ static const MeshTable *mesh_table(ShapeTable *table, const Mesh *mesh, int thre
     return made;
 }
 
+static bool fill_meshes(ShapeTable *table, const Scene *scene, InternTable *known, int threads,
+                        const atomic_bool *cancel)
+{
+    uint64_t faces = 0;
+    for (uint32_t i = 0; i < table->solid_count; i++) {
+        const Part *part = &scene->parts.items[i];
+        Solid *solid = &table->solids[i];
+        if (!solid_is_mesh(solid)) {
+            continue;
+        }
+        solid->mesh.table = mesh_table(table, known, part->mesh.mesh, threads, cancel);
+        if (!solid->mesh.table || faces + part->mesh.mesh->face_count >= 1u << SHAPE_INDEX_BITS) {
+            return false;
+        }
+        solid->mesh.materials = scene->face_materials.items ? scene->face_materials.items + part->mesh.materials : NULL;
+        solid->mesh.first_face = (uint32_t)faces;
+        faces += part->mesh.mesh->face_count;
+        table->mesh_solids[table->mesh_solid_count++] = i;
+    }
+    return true;
+}
+
 // What meshes have beside numbers.
 static bool meshes_init(ShapeTable *table, const Scene *scene, int threads, const atomic_bool *cancel)
 {
-    uint64_t faces = 0;
     uint32_t count = 0;
     for (uint32_t i = 0; i < table->solid_count; i++) {
         count += primitive_class(scene->parts.items[i].kind)->is_mesh;
@@ -217,24 +239,12 @@ static bool meshes_init(ShapeTable *table, const Scene *scene, int threads, cons
     if (count == 0) {
         return true;
     }
+    InternTable *known = intern_new(SIZE_MAX);
     table->meshes = calloc(count, sizeof *table->meshes);
     table->mesh_solids = calloc(count, sizeof *table->mesh_solids);
-    for (uint32_t i = 0; table->meshes && table->mesh_solids && i < table->solid_count; i++) {
-        const Part *part = &scene->parts.items[i];
-        Solid *solid = &table->solids[i];
-        if (!solid_is_mesh(solid)) {
-            continue;
-        }
-        solid->mesh.table = mesh_table(table, part->mesh.mesh, threads, cancel);
-        if (!solid->mesh.table || faces + part->mesh.mesh->face_count >= 1u << SHAPE_INDEX_BITS) {
-            return false;
-        }
-        solid->mesh.materials = scene->face_materials.items + part->mesh.materials;
-        solid->mesh.first_face = (uint32_t)faces;
-        faces += part->mesh.mesh->face_count;
-        table->mesh_solids[table->mesh_solid_count++] = i;
-    }
-    return table->mesh_solid_count == count;
+    bool is_fine = known && table->meshes && table->mesh_solids && fill_meshes(table, scene, known, threads, cancel);
+    intern_free(known);
+    return is_fine;
 }
 
 // ---- the tree

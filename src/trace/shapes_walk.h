@@ -282,6 +282,9 @@ static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t in
 {
     const Solid *solid = &q->table->solids[index];
     RayInterval intervals[solid->interval_most];
+    if (shapes_are_abandoned(q->table)) {
+        return; // a line through a polynomial takes up to a millisecond
+    }
     unsigned count = solid_intervals(solid, object, left, intervals);
     if (count == 0) {
         return;
@@ -417,7 +420,7 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
     double enter;
     if (index < table->solid_count) {
         solid_closest(q, index, first);
-    } else if (table->abandon && trace_is_abandoned(table->abandon)) {
+    } else if (shapes_are_abandoned(table)) {
         return; // one ray may cross 10^5 parts
     } else if (RT_UNLIKELY(index - table->solid_count >= table->csg_count)) {
         cluster_closest(q, &table->clusters[index - table->solid_count - table->csg_count], first);

@@ -16,6 +16,7 @@ from tap import Tap
 RTLANG = os.path.abspath(os.environ["RTLANG"])
 SOURCE = os.path.join(os.environ["top_srcdir"], "tests", "system", "failing_memory.c")
 OLD = b"an old picture"
+LOST_BY_LOADER = 1  # glibc 2.36 loses a block where dlopen fails in _dl_find_object_update
 TAKEN = None if os.environ.get("MEMORY_ALL") else 50
 tap = Tap()
 
@@ -38,6 +39,24 @@ sphere { S(0.5), 1 texture { Skin } }
 """,
     "part.inc": "#declare Skin = texture { pigment { rgb <1, 0.5, 0> } finish { phong 0.5 } }\n",
     "data.txt": "1, 2,\n3, 4\n",
+    "lists.scn": HEAD + """#declare Skin = texture { pigment { rgb <1, 0.5, 0> } }
+mesh2 {
+    vertex_vectors { 4, <-2, 0, 0>, <-1, 0, 0>, <-2, 1, 0>, <-2, 0, 1> }
+    texture_list { 2, texture { Skin } texture { pigment { rgb 1 } } }
+    face_indices { 4, <0, 2, 1>, 0, <0, 1, 3>, 1, <0, 3, 2>, 0, <1, 2, 3>, 1 }
+    inside_vector <0, 0, 1>
+}
+mesh { smooth_triangle { 0, z, x, z + x, y, z + y } translate 2*y }
+blob { threshold 0.5 sphere { 0, 1, 1 } cylinder { 0, 2*y, 0.5, 1 } pigment { rgb 1 } }
+prism { cubic_spline conic_sweep 0, 1, 7, <0, -1>, <1, 0>, <0, 1>, <-1, 0>, <0, -1>, <1, 0>, <0, 1> translate 2*x }
+difference { poly { 4, <1, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, -1> }
+    torus { 1, 0.2 } pigment { function { sin(9*x) + y } color_map { [0 rgb 0] [1 rgb 1] } } }
+#declare F = function { pattern { bozo warp { turbulence 0.5 } } }
+#declare Ball = sphere { 0, 1 }
+sphere { trace(Ball, -3*z, z), 0.2 + 0.1*F(1, 2, 3) }
+fog { fog_type 2 distance 20 fog_alt 1 turbulence 0.3 rgb 1 }
+""",
+    "letters.scn": HEAD + 'text { ttf "timrom.ttf" "rt" 0.3, 0 pigment { rgb 1 } translate -x }\n',
     "image.scn": HEAD + 'box { -1, 1 pigment { image_map { png "map.png" } } }\n',
     "wrong.scn": HEAD + "sphere { 0, Raduis pigmant { rgb 1 } }\nspere { 0, 1 }\n",
 }
@@ -48,6 +67,8 @@ RUNS = {
     "shapes in two threads": [*DRAW, "-t2", "shapes.scn"],
     "include, data, functions": [*DRAW, "reads.scn"],
     "a picture as image_map": [*DRAW, "image.scn"],
+    "meshes, blobs, prisms, functions": [*DRAW, "lists.scn"],
+    "text": [*DRAW, "letters.scn"],
     "a faulty scene": [*DRAW, "wrong.scn"],
     "messages in JSON": [*DRAW, "--diagnostics=json", "wrong.scn"],
     "--dump=scene": ["--dump=scene", "shapes.scn"],
@@ -65,6 +86,7 @@ class Run:
     """One run of the program with allocation number `at` failing, 0: none."""
 
     def __init__(self, arguments, at, goes_on=False):
+        self.arguments = arguments
         write("old.png", OLD)
         before = set(os.listdir())
         how = {"LD_PRELOAD": os.path.abspath("failing.so"), "FAIL_AT": str(at), "FAIL_LOG": "log", "LC_ALL": "C"}
@@ -85,7 +107,7 @@ class Run:
         """What is wrong with it, or None."""
         if self.left:
             return "left over: %s" % self.left
-        if self.held > good.held:
+        if self.held > good.held + (LOST_BY_LOADER if "letters.scn" in self.arguments else 0):
             return "%d blocks leak" % (self.held - good.held)
         if (self.code, self.said, self.picture) == (good.code, good.said, good.picture):
             return None
@@ -96,6 +118,9 @@ class Run:
 
 def check(name, arguments):
     good = Run(arguments, 0)
+    if b"text needs FreeType" in good.said[1]:
+        tap.skip("%s: every allocation failed in turn" % name, "no FreeType")
+        return
     step = max(1, good.calls // TAKEN) if TAKEN else 1
     faults = []
     for goes_on in False, True:

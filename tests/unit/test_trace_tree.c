@@ -12,31 +12,6 @@
 
 // ---- The tree against testing every sphere.
 
-// Every sphere in order of declaration; a later one has to be strictly nearer, and so by exact arithmetic where the roots
-// are the same but for their last bits.
-static double brute_force(const Scene *scene, const SphereRay *ray, const SphereData *start, bool inward, double t_max,
-                          uint32_t *order)
-{
-    double t_best = t_max;
-    SphereData best = *start;
-    bool best_inside = false;
-    *order = UINT32_MAX;
-    for (size_t i = 0; i < scene->spheres.count; i++) {
-        SphereData ball = sphere_data_make(scene->spheres.items[i].centre, scene->spheres.items[i].radius);
-        bool inside = inward;
-        double t = sphere_data_equal(&ball, start) ? (inward ? sphere_root_inward(ray, &ball) : (double)NAN)
-                                                   : sphere_hit(ray, &ball, &inside);
-        bool is_tie = *order != UINT32_MAX && fabs(t - t_best) <= SPHERE_TIE * t_best;
-        if (t > 0.0 && (is_tie ? sphere_roots_compare(ray, &ball, inside, &best, best_inside, t) < 0 : t < t_best)) {
-            t_best = t;
-            best = ball;
-            best_inside = inside;
-            *order = scene_sphere_order(scene, i);
-        }
-    }
-    return t_best;
-}
-
 // Free rays: any, along axes (zeros of both signs), in planes of boxes, grazing a sphere, from near and far.
 static Ray hard_ray(const Scene *scene, Random *random, double size, Vec3 middle)
 {
@@ -75,27 +50,6 @@ static Ray hard_ray(const Scene *scene, Random *random, double size, Vec3 middle
     }
     }
     return (Ray){origin, direction};
-}
-
-// True when the tree and the list agree on what the ray meets; *hit is that.
-static bool same_hit(const Scene *scene, const Geometry *geometry, Ray ray, RayStart start, double t_max, bool *met,
-                     Hit *hit)
-{
-    SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
-    SphereData start_ball = query_start_sphere(geometry, TRACE_ALL_FEATURES, start).ball;
-    uint32_t order;
-    double t = brute_force(scene, &sphere_ray, &start_ball, start.inward, t_max, &order);
-    *met = closest(geometry, ray, start, t_max, hit);
-    if (*met != (order != UINT32_MAX) || *met != geometry_occluded(geometry, TRACE_ALL_FEATURES, ray, start, t_max)) {
-        return false;
-    }
-    if (!*met || hit->t != t) {
-        return !*met;
-    }
-    // Of spheres equal to the one that is left inward any is right: they are one surface.
-    SphereData hit_ball = sphere_table_ball(&geometry->spheres, shape_index(hit->shape));
-    const ShapeInfo *info = &geometry->spheres.info[shape_index(hit->shape)];
-    return info->order == order || (start.inward && sphere_data_equal(&hit_ball, &start_ball));
 }
 
 static void test_tree_is_brute_force(size_t family, int count, int rays)

@@ -52,6 +52,54 @@ __attribute__((unused)) static Vec3 random_point(Random *random, double size)
     return random_vec3(random, -size, size);
 }
 
+// ---- the tree against testing every sphere
+
+// Every sphere in order of declaration; a later one has to be strictly nearer, and so by exact arithmetic where the
+// roots are the same but for their last bits.
+__attribute__((unused)) static double brute_force(const Scene *scene, const SphereRay *ray, const SphereData *start,
+                                                  bool inward, double t_max, uint32_t *order)
+{
+    double t_best = t_max;
+    SphereData best = *start;
+    bool best_inside = false;
+    *order = UINT32_MAX;
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        SphereData ball = sphere_data_make(scene->spheres.items[i].centre, scene->spheres.items[i].radius);
+        bool inside = inward;
+        double t = sphere_data_equal(&ball, start) ? (inward ? sphere_root_inward(ray, &ball) : (double)NAN)
+                                                   : sphere_hit(ray, &ball, &inside);
+        bool is_tie = *order != UINT32_MAX && fabs(t - t_best) <= SPHERE_TIE * t_best;
+        if (t > 0.0 && (is_tie ? sphere_roots_compare(ray, &ball, inside, &best, best_inside, t) < 0 : t < t_best)) {
+            t_best = t;
+            best = ball;
+            best_inside = inside;
+            *order = scene_sphere_order(scene, i);
+        }
+    }
+    return t_best;
+}
+
+// True when the tree and the list agree on what the ray meets; *hit is that.
+__attribute__((unused)) static bool same_hit(const Scene *scene, const Geometry *geometry, Ray ray, RayStart start,
+                                             double t_max, bool *met, Hit *hit)
+{
+    SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
+    SphereData start_ball = query_start_sphere(geometry, TRACE_ALL_FEATURES, start).ball;
+    uint32_t order;
+    double t = brute_force(scene, &sphere_ray, &start_ball, start.inward, t_max, &order);
+    *met = closest(geometry, ray, start, t_max, hit);
+    if (*met != (order != UINT32_MAX) || *met != geometry_occluded(geometry, TRACE_ALL_FEATURES, ray, start, t_max)) {
+        return false;
+    }
+    if (!*met || hit->t != t) {
+        return !*met;
+    }
+    // Of spheres equal to the one that is left inward any is right: they are one surface.
+    SphereData hit_ball = sphere_table_ball(&geometry->spheres, shape_index(hit->shape));
+    const ShapeInfo *info = &geometry->spheres.info[shape_index(hit->shape)];
+    return info->order == order || (start.inward && sphere_data_equal(&hit_ball, &start_ball));
+}
+
 // ---- parts
 
 // A tile of rays about a direction, neighbours `step` apart.

@@ -409,5 +409,8 @@ bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *ma
 bool part_place_plain(Eval *ev, Part *part, const Material *material, Span span) RT_MUST_CHECK;
 // Whether what the scene takes, and so many bytes more, is within the limit of memory.
 bool memory_has(const Eval *ev, size_t bytes);
+// The same of the scene alone; what is beyond the limit is reported.
+bool memory_suffices(Eval *ev, Span span) RT_MUST_CHECK;
+enum { OPENED_BYTES = 16 << 10 }; // what a small thing takes of tracer and painter beside, above all rooms of arrays
 
 #endif

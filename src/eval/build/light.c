@@ -197,5 +197,6 @@ bool light_place(Eval *ev, const LightDesc *light, const Transform *outer)
         !vec3_is_finite(record.area.axis1) || !vec3_is_finite(record.area.axis2)) {
         return eval_fault(ev, DIAG_E0340, light->part.span, "the light leaves the range of numbers");
     }
-    return scene_add_light(ev->scene, &record) || eval_no_memory(ev, light->part.span);
+    return (scene_add_light(ev->scene, &record) || eval_no_memory(ev, light->part.span)) &&
+           memory_suffices(ev, light->part.span);
 }

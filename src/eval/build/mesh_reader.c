@@ -14,7 +14,8 @@
 bool mesh_reader_grow(MeshReader *reader, MeshArray *array, size_t wanted)
 {
     Eval *ev = reader->block->ev;
-    size_t room = array->room * 2 > 1024 ? array->room * 2 : 1024;
+    enum { LEAST_ROOM = 16 }; // what is left over of more lies idle between the arrays of many small meshes
+    size_t room = array->room * 2 > LEAST_ROOM ? array->room * 2 : LEAST_ROOM;
     room = room < wanted && array->room * 4 >= wanted ? wanted : room;
     const MeshArray *all[] = {&reader->vertices, &reader->normals, &reader->faces, &reader->face_normals,
                               &reader->face_textures};

@@ -69,8 +69,7 @@ static bool has_pictures(Eval *ev, Scene *scene, Span span)
         ev->stop = true;
         return false;
     }
-    ev->painted_bytes += scene_bytes(scene);
-    return memory_has(ev, 0) || eval_no_memory(ev, span);
+    return memory_has(ev, scene_bytes(scene)) || eval_no_memory(ev, span);
 }
 
 static void painted_open(Eval *ev, Painted *painted, Span span)
@@ -87,6 +86,12 @@ static void painted_open(Eval *ev, Painted *painted, Span span)
     painted->opened = ev->options.painter->open(&painted->scene, noise);
     if (painted->opened == NULL) {
         eval_no_memory(ev, span);
+        return;
+    }
+    ev->opened_bytes += OPENED_BYTES + scene_bytes(&painted->scene) + ev->options.painter->bytes(painted->opened);
+    if (!memory_suffices(ev, span)) {
+        ev->options.painter->close(painted->opened);
+        painted->opened = NULL;
     }
 }
 

@@ -54,10 +54,10 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *br
 
 bool memory_has(const Eval *ev, size_t bytes)
 {
-    return scene_memory_has(ev->scene, ev->memory.used + ev->painted_bytes, bytes, ev->memory.limit);
+    return scene_memory_has(ev->scene, ev->memory.used + ev->opened_bytes, bytes, ev->memory.limit);
 }
 
-static bool memory_suffices(Eval *ev, Span span)
+bool memory_suffices(Eval *ev, Span span)
 {
     if (!memory_has(ev, 0)) {
         ev->memory.refused = true;

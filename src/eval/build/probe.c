@@ -28,7 +28,6 @@ struct ProbeNode {
 };
 
 struct Probe {
-    const void *object;
     void *geometry;
     Scene shapes; // parts only, in the order of `leaves`
     ARRAY(const ProbeNode *) leaves;
@@ -198,17 +197,22 @@ static bool is_left(const ProbeNode *node, Vec3 point)
 
 static Probe *find_probe(Eval *ev, const Value *object, Span span)
 {
-    for (size_t i = 0; i < ev->probes.count; i++) {
-        if (ev->probes.items[i]->object == object->record) {
-            return ev->probes.items[i]->geometry != NULL ? ev->probes.items[i] : NULL; // what is wrong has been reported
-        }
+    const char *key = (const char *)&object->record;
+    ev->probed = ev->probed != NULL ? ev->probed : intern_new(SIZE_MAX);
+    Symbol number = ev->probed != NULL ? intern_find(ev->probed, key, sizeof object->record) : SYMBOL_NONE;
+    Probe *probe;
+    if (number != SYMBOL_NONE) {
+        probe = ev->probes.items[number - 1];
+        return probe->geometry != NULL ? probe : NULL; // what is wrong has been reported
     }
-    Probe *probe = arena_alloc(&ev->program, sizeof *probe);
-    if (probe == NULL || !ARRAY_PUSH(&ev->probes, probe)) {
+    probe = arena_alloc(&ev->program, sizeof *probe);
+    if (probe == NULL || ev->probed == NULL || !ARRAY_RESERVE(&ev->probes, ev->probes.count + 1) ||
+        intern_text(ev->probed, key, sizeof object->record) == SYMBOL_NONE) {
         eval_no_memory(ev, span);
         return NULL;
     }
-    *probe = (Probe){.object = object->record};
+    *probe = (Probe){0};
+    ev->probes.items[ev->probes.count++] = probe;
     scene_init(&probe->shapes);
     Transform world = transform_identity();
     if (!add_object(ev, probe, NULL, NULL, (SchemaKind)object->block, object->record, &world)) {
@@ -219,7 +223,8 @@ static Probe *find_probe(Eval *ev, const Value *object, Span span)
         eval_no_memory(ev, span);
         return NULL;
     }
-    return probe;
+    ev->opened_bytes += OPENED_BYTES + scene_bytes(&probe->shapes) + ev->options.tracer->bytes(probe->geometry);
+    return memory_suffices(ev, span) ? probe : NULL;
 }
 
 void probes_fini(Eval *ev)
@@ -233,6 +238,7 @@ void probes_fini(Eval *ev)
         ARRAY_FREE(&probe->leaves);
     }
     ARRAY_FREE(&ev->probes);
+    intern_free(ev->probed);
 }
 
 // A negative radius turns the normals of a sphere round, until a transform is taken that need not keep it one.

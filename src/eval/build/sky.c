@@ -103,5 +103,5 @@ bool fog_place(Eval *ev, const FogDesc *fog, Span span)
         record.offset = fog->offset * scale + vec3_dot(record.up, shift);
         record.alt = fog->alt * scale;
     }
-    return scene_add_fog(ev->scene, &record) || eval_no_memory(ev, span);
+    return (scene_add_fog(ev->scene, &record) || eval_no_memory(ev, span)) && memory_suffices(ev, span);
 }

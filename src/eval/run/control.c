@@ -345,13 +345,13 @@ RT_ALWAYS_INLINE bool has_turn(Cursor *cursor, CursorFrame *frame, bool *holds)
 bool loop_continues(Cursor *cursor, CursorFrame *frame)
 {
     bool holds;
-    return has_turn(cursor, frame, &holds) && holds && eval_step(cursor->ev, frame->node->span);
+    return has_turn(cursor, frame, &holds) && holds && eval_turn(cursor->ev, frame->node->span, frame->node->span);
 }
 
 void control_while(Cursor *cursor, const AstNode *node)
 {
     bool holds;
-    if (eval_condition(cursor->ev, node->a, &holds) && holds && eval_step(cursor->ev, node->span)) {
+    if (eval_condition(cursor->ev, node->a, &holds) && holds && eval_turn(cursor->ev, node->span, node->span)) {
         cursor_push(cursor, FRAME_WHILE, node->b, node);
     }
 }
@@ -361,7 +361,7 @@ void control_for(Cursor *cursor, const AstNode *node)
     ForLoop loop;
     bool holds = false;
     if (node->a == NULL || !for_begins(cursor->ev, node, &loop, &holds) || !holds ||
-        !eval_step(cursor->ev, node->span)) {
+        !eval_turn(cursor->ev, node->span, node->span)) {
         return; // at the first, its head was not readable
     }
     CursorFrame *frame = cursor_push(cursor, FRAME_FOR, node->c, node);
@@ -370,14 +370,21 @@ void control_for(Cursor *cursor, const AstNode *node)
     }
 }
 
+// Its tokens, which are parsed once more.
+static bool take_turn(Eval *ev, const CursorFrame *frame)
+{
+    enum { WORK_OF_A_TOKEN = 64 };
+    Span span = frame->text.opened_by.span;
+    return eval_step(ev, span) && eval_work(ev, WORK_OF_A_TOKEN * frame->text.count, span);
+}
+
 // The `#end` of a loop in a text, or its beginning.
 static void next_turn(Expansion *expansion, CursorFrame *frame)
 {
     Eval *ev = expansion_eval(expansion);
     bool holds;
     frame->text.at = 0;
-    bool fine = has_turn(expansion->cursor, frame, &holds) &&
-                (!holds || eval_step(ev, frame->text.opened_by.span)) && !ev->stop;
+    bool fine = has_turn(expansion->cursor, frame, &holds) && (!holds || take_turn(ev, frame)) && !ev->stop;
     if (!fine) {
         ev->faulty = true;
         expansion_fail(expansion);
@@ -435,7 +442,7 @@ void control_begin_for(Expansion *expansion, const Token *directive)
     CursorFrame *frame = push_loop(expansion, FRAME_FOR, directive);
     if (frame != NULL) {
         frame->loop = loop;
-        if (!eval_step(ev, directive->span)) {
+        if (!take_turn(ev, frame)) {
             expansion_fail(expansion);
         }
     }

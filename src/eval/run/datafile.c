@@ -15,6 +15,7 @@
 
 enum {
     BLOCK_BYTES = 64 << 10,
+    WORK_OF_A_BYTE = 2,              // of a comment, say
     LONGEST_VALUE = 255,             // characters of a number or a string, as in scenes
     LOOK_AHEAD = LONGEST_VALUE + 33, // at hand wherever a number begins
 };
@@ -38,10 +39,12 @@ static void fill(Eval *ev, DataFile *file)
     memmove(file->block, file->at, kept);
     file->at = file->block;
     ptrdiff_t got = source_read(file->source, file->block + kept, BLOCK_BYTES - kept);
-    if (got < 0 && errno == ECANCELED) {
+    Span here = {file->end_offset, file->end_offset};
+    if (got > 0 && !eval_work(ev, WORK_OF_A_BYTE * (size_t)got, here)) {
+        got = 0;
+    } else if (got < 0 && errno == ECANCELED) {
         ev->stop = true;
     } else if (got < 0) {
-        Span here = {file->end_offset, file->end_offset};
         eval_fault(ev, DIAG_E0502, here, "cannot read any further: %s", strerror(errno));
     }
     file->ended = got <= 0;

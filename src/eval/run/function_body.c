@@ -31,7 +31,7 @@ static FunctionNode *new_node(Compiler *compiler, const AstNode *at, FunctionNod
         eval_no_memory(compiler->ev, at->span);
         return NULL;
     }
-    *node = (FunctionNode){.run = run, .height = 1};
+    *node = (FunctionNode){.run = run, .height = 1, .size = 1};
     return node;
 }
 
@@ -55,6 +55,7 @@ static FunctionNode *with_arguments(FunctionNode *node, FunctionNode *first)
     node->is_constant = true;
     for (const FunctionNode *argument = first; argument != NULL; argument = argument->next) {
         node->height = argument->height >= node->height ? argument->height + 1 : node->height;
+        node->size += argument->size;
         node->count++;
         node->is_constant = node->is_constant && argument->is_constant;
     }
@@ -447,7 +448,7 @@ static FunctionNode *compile_sequence(Compiler *compiler, const AstNode *node)
 
 static FunctionNode *compile_builtin(Compiler *compiler, const AstNode *node)
 {
-    FunctionNode made = {.height = 1};
+    FunctionNode made = {.height = 1, .size = 1};
     unsigned least, greatest;
     if (node->symbol == W_sum || node->symbol == W_prod) {
         return compile_sequence(compiler, node);

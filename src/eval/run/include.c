@@ -75,6 +75,8 @@ static void keep(Cursor *cursor, Source *source, Span span)
     }
 }
 
+enum { WORK_OF_A_BYTE = 16 }; // of text that is parsed
+
 static Source *open_included(Eval *ev, const AstNode *node)
 {
     Source *source = NULL;
@@ -92,6 +94,12 @@ static Source *open_included(Eval *ev, const AstNode *node)
         return NULL;
     }
     if (!file_open(ev, node->a, FILE_INCLUDE, &source)) {
+        return NULL;
+    }
+    // What is read once is work in proportion to the files that there are.
+    Span text = source_extent(source);
+    if (source_is_again(source) && !eval_work(ev, WORK_OF_A_BYTE * (text.end - text.begin), node->span)) {
+        source_close(source);
         return NULL;
     }
     ev->memory.limit = limits_memory(ev->options.limits, source_map_bytes(ev->options.sources));

@@ -305,7 +305,7 @@ static bool bind_all(Eval *ev, const AstNode *call, const Macro *macro)
 
 bool macro_enter(Eval *ev, const AstNode *call, Macro *macro, DiagFrame *frame)
 {
-    if (!knows_macros(ev, call->span) || !eval_step(ev, call->span)) {
+    if (!knows_macros(ev, call->span) || !eval_turn(ev, macro->span, call->span)) {
         return false;
     }
     if ((call->flags & (AST_PASTES | AST_KNOWN)) == AST_PASTES && paste_is_needed(ev, call)) {

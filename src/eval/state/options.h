@@ -56,6 +56,7 @@ typedef struct EvalTracer {
     void *(*open)(const Scene *parts); // NULL when out of memory; the scene stays as it is until `close`
     // From a point, or continuing from where a surface was met; the direction is of unit length. False: nothing is met.
     bool (*closest)(const void *opened, Vec3 origin, Vec3 direction, const EvalHit *from, EvalHit *hit);
+    size_t (*bytes)(const void *opened); // of memory that it takes
     void (*close)(void *opened);
 } EvalTracer;
 
@@ -67,6 +68,7 @@ typedef struct EvalPainter {
     // Of a pigment that is a pattern, its value alone. The generator is that of patterns that say nothing else.
     double (*value)(void *opened, const Pigment *pigment, NoiseGenerator generator, Vec3 point);
     Rgbft (*colour)(void *opened, const Pigment *pigment, NoiseGenerator generator, Vec3 point);
+    size_t (*bytes)(const void *opened); // of memory that it takes
     void (*close)(void *opened);
 } EvalPainter;
 

@@ -10,7 +10,10 @@
 
 #include "eval/state/state.h"
 
-enum { BYTES_A_STEP = 256 }; // of a string: as many are compared or copied in the time of a loop's turn
+enum {
+    BYTES_A_STEP = 256, // of a string: as many are compared or copied in the time of a loop's turn
+    TEXT_A_STEP = 64,   // of statements that are run
+};
 
 enum { REPORTED_SLOTS_FIRST = 64 };
 
@@ -206,6 +209,12 @@ static bool take_steps(Eval *ev, uint64_t steps, Span span)
 bool eval_step(Eval *ev, Span span)
 {
     return take_steps(ev, 1, span);
+}
+
+bool eval_turn(Eval *ev, Span text, Span span)
+{
+    uint64_t bytes = text.end > text.begin ? text.end - text.begin : 0;
+    return take_steps(ev, 1 + bytes / TEXT_A_STEP, span);
 }
 
 bool eval_work(Eval *ev, size_t bytes, Span span)

@@ -150,8 +150,9 @@ struct Eval {
     unsigned fragment_nesting;    // of fragments that are being parsed
     uint64_t steps_reported;         // at the last message that said something new
     ARRAY(struct Probe *) probes; // objects that were traced, see probe.c
+    InternTable *probed;          // the address of each, by the same numbers from 1; NULL as long as there is none
     ARRAY(Painted *) painted; // functions of patterns and pigments, see painted.c
-    size_t painted_bytes;         // of their pictures
+    size_t opened_bytes;      // of what tracer and painter hold for both
     enum { CHARSET_UNSAID, CHARSET_ASCII, CHARSET_UTF8, CHARSET_SYS } charset; // of strings in the text
     bool has_mark;                // which is UTF-8 unless the scene says otherwise
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
@@ -225,6 +226,8 @@ void eval_frame_leave(Eval *ev);
 bool eval_cancelled(Eval *ev);
 // Counts a turn of a loop or a call; false, with `stop` set, when there were too many.
 bool eval_step(Eval *ev, Span span) RT_MUST_CHECK;
+// The same of a turn or call that runs through so much of the scene's text.
+bool eval_turn(Eval *ev, Span text, Span span) RT_MUST_CHECK;
 // Counts work on so many bytes of strings as steps that take as long; false as eval_step.
 bool eval_work(Eval *ev, size_t bytes, Span span) RT_MUST_CHECK;
 // Reports that evaluation nests too deeply and sets `stop`; returns false.

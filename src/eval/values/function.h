@@ -76,6 +76,7 @@ struct FunctionNode {
     unsigned slot;   // of a parameter or of a sum's variable; the component of a vector function
     unsigned count;  // of arguments
     unsigned height; // of the tree below and including this node, calls counted in
+    unsigned size;   // of that tree: its nodes
     bool is_constant; // no parameter, sum or product below it; see function_body.c
 };
 

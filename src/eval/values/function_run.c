@@ -197,7 +197,8 @@ unsigned function_width(const Function *function)
 static bool run_body(Eval *ev, const Function *function, const double *arguments, Span span, double *number)
 {
     FunctionRun run;
-    if (!eval_step(ev, span)) {
+    enum { WORK_OF_A_NODE = 16 };
+    if (!eval_step(ev, span) || !eval_work(ev, WORK_OF_A_NODE * function->body->size, span)) {
         return false;
     }
     run.ev = ev;

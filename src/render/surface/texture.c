@@ -172,6 +172,14 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     return true;
 }
 
+size_t texture_table_bytes(const TextureTable *table)
+{
+    const Scene *scene = table->scene;
+    size_t transforms = scene->patterns.count + scene->textures.count + scene->normals.count + scene->warps.count + 4;
+    return sizeof *table + transforms * sizeof(Transform) + scene->patterns.count +
+           scene->image_maps.count * sizeof *table->images + table->along.bytes_reserved;
+}
+
 void texture_table_fini(TextureTable *table)
 {
     free(table->noise);

@@ -41,6 +41,8 @@ struct TextureTable {
 bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent,
                         const char *isa) RT_MUST_CHECK;
 void texture_table_fini(TextureTable *table);
+// What it takes of memory beside the pictures and a noise of its own.
+size_t texture_table_bytes(const TextureTable *table);
 
 // Whether some picture lets light through.
 bool texture_table_has_transparent_image(const TextureTable *table);
