@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "base/attributes.h"
+
 double polynomial_value(const double *list, Vec3 p)
 {
     unsigned order = polynomial_order(list);
@@ -24,9 +26,8 @@ double polynomial_value(const double *list, Vec3 p)
     return value;
 }
 
-Vec3 polynomial_gradient(const double *list, Vec3 p)
+RT_ALWAYS_INLINE Vec3 gradient_of(const double *list, unsigned order, Vec3 p)
 {
-    unsigned order = polynomial_order(list);
     const double *c = polynomial_terms(list);
     double value = 0.0;
     Vec3 gradient = {0.0, 0.0, 0.0};
@@ -48,6 +49,12 @@ Vec3 polynomial_gradient(const double *list, Vec3 p)
         value = value * p.x + row;
     }
     return gradient;
+}
+
+// Quadrics are the most by far: their loops are unrolled.
+Vec3 polynomial_gradient(const double *list, Vec3 p)
+{
+    return polynomial_order(list) == 2 ? gradient_of(list, 2, p) : gradient_of(list, polynomial_order(list), p);
 }
 
 static void set_sizes(unsigned order, double *list)
