@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "scene/part.h"
+#include "trace/csg_bounds.h"
 #include "trace/csg_parts.h"
 #include "trace/half_spaces.h"
 #include "trace/shapes_clusters.h"
@@ -114,7 +115,8 @@ static Bounds planes_bounds(const ShapeTable *table, const CsgTree *csg)
 
 // What the nodes count of children, from the leaves up, and the box of what is seen: that of the root, of which it does
 // not matter whether it is taken from all space, within that of all surfaces. Children stand behind their parents.
-static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *node_bounds)
+static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *node_bounds,
+                          Bounds *spare)
 {
     uint32_t first = csg->first_node;
     Bounds surface = BOUNDS_NONE;
@@ -138,7 +140,12 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
         node_take(parent, &node_bounds[node->parent], &bounds);
     }
     Bounds bounds = bounds_meet(surface, node_bounds[first]);
-    return bounds_are_finite(bounds) ? bounds : bounds_meet(bounds, planes_bounds(table, csg));
+    if (!bounds_are_finite(bounds)) {
+        bounds = bounds_meet(bounds, planes_bounds(table, csg));
+    }
+    return bounds_are_finite(bounds) || csg->solid_count < 2
+               ? bounds
+               : bounds_meet(bounds, csg_bounds(table, csg, surfaces, node_bounds, spare));
 }
 
 static bool node_is_all(const TreeNode *node)
@@ -240,7 +247,7 @@ static bool meshes_init(ShapeTable *table, const Scene *scene, int threads, cons
 // ---- the tree
 
 typedef struct Work {
-    Bounds *solids, *nodes; // the roots' boxes are those of their csg_trees
+    Bounds *solids, *nodes; // the roots' boxes are those of their csg_trees; nodes: twice as many, the rest spare
     ShapeItem *bounded;
     Bounds *clusters;
     Pages solid_pages, bounded_pages, ref_pages;
@@ -459,7 +466,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
     for (uint32_t i = 0; i < table->csg_count; i++) {
         CsgTree *csg = &table->csg_trees[i];
         Bounds *root = &work->nodes[csg->first_node];
-        *root = csg_measure(table, csg, work->solids, work->nodes);
+        *root = csg_measure(table, csg, work->solids, work->nodes, work->nodes + table->node_count);
         if (csg->solid_count > 0) {
             add_item(table, work, table->solid_count + i, root);
         }
@@ -475,7 +482,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
 static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
 {
     size_t most = scene->parts.count + scene->composites.count;
-    work->nodes = malloc((scene->nodes.count + 1) * sizeof *work->nodes);
+    work->nodes = malloc((2 * scene->nodes.count + 1) * sizeof *work->nodes);
     table->nodes = malloc((scene->nodes.count + 1) * sizeof *table->nodes);
     table->csg_trees = calloc(scene->composites.count + 1, sizeof *table->csg_trees); // without trees of parts
     if (!work->nodes || !table->nodes || !table->csg_trees ||
