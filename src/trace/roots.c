@@ -168,10 +168,21 @@ static double value_and_slope(const Polynomial *p, unsigned level, double x, dou
     return value;
 }
 
-// The place of a sign change between two places, for a sign before it; Newton's steps as long as they stay between.
-static double root_between(const Polynomial *p, unsigned level, double low, double high, int sign)
+// Where a root between two places may be, as the curvature at one of them says, at which the slope is 0; their middle
+// where that is no place between.
+static double root_guess(const Polynomial *p, unsigned level, double low, double high, double flat)
 {
-    double x = 0.5 * (low + high), before = high - low;
+    double turn = p->degree - level >= 2 ? value_at(p, level + 2, flat) : 0.0;
+    double way = sqrt(fmax(-2.0 * value_at(p, level, flat) / turn, 0.0)); // of NaN 0
+    double guess = flat == low ? low + way : high - way;
+    return guess > low && guess < high ? guess : 0.5 * (low + high);
+}
+
+// The place of a sign change between two places, for a sign before it, from a guess; Newton's steps as long as they stay
+// between.
+static double root_between(const Polynomial *p, unsigned level, double low, double high, int sign, double guess)
+{
+    double x = guess, before = high - low;
     for (int i = 0; i < STEPS_MOST && low < x && x < high; i++) {
         double slope, value = value_and_slope(p, level, x, &slope);
         if (value == 0.0) {
@@ -254,7 +265,8 @@ static unsigned level_roots(Polynomial *p, unsigned level, const Range *range, c
         if (sign == 0) {
             *first = *first == 0 ? next : *first;
         } else if (sign != next) {
-            roots[count++] = root_between(p, level, from, to, sign);
+            double guess = i > 0 || !is_last ? root_guess(p, level, from, to, i > 0 ? from : to) : 0.5 * (from + to);
+            roots[count++] = root_between(p, level, from, to, sign, guess);
         }
         sign = next;
         from = to;
@@ -369,7 +381,7 @@ unsigned roots_find_about(Polynomial *p, double half, double *roots, int *sign)
             return 0;
         }
         if (is_known && changes == 1) {
-            roots[0] = root_between(p, 0, -half, half, *sign);
+            roots[0] = root_between(p, 0, -half, half, *sign, 0.0);
             return 1;
         }
     }
