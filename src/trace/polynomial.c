@@ -37,6 +37,7 @@ RT_ALWAYS_INLINE int times_line(double *p, int degree, double b, double d)
         return degree;
     }
     p[degree + 1] = p[degree] * d;
+#pragma GCC unroll 5
     for (int i = degree; i > 0; i--) {
         p[i] = p[i] * b + p[i - 1] * d;
     }
@@ -46,26 +47,32 @@ RT_ALWAYS_INLINE int times_line(double *p, int degree, double b, double d)
 
 RT_ALWAYS_INLINE int plus(double *p, int degree, const double *q, int q_degree)
 {
+#pragma GCC unroll 5
     for (int i = 0; i <= q_degree; i++) {
         p[i] = i <= degree ? p[i] + q[i] : q[i];
     }
     return q_degree > degree ? q_degree : degree;
 }
 
-// Trailing coefficients of the surface that are 0 cost a comparison. `whole` has room for order + 1; the rest is 0.
-static void compose(const Line *line, double *whole)
+// `whole` has room for order + 1. Where the order is no constant, leading coefficients of the surface that are 0 cost a
+// comparison; the sum is the same.
+RT_ALWAYS_INLINE void compose_of(const Line *line, int order, bool skips, double *whole)
 {
     double row[TERMS_MOST], part[TERMS_MOST];
-    int order = (int)polynomial_order(line->list), whole_degree = -1;
+    int whole_degree = -1;
     const double *c = polynomial_terms(line->list);
+#pragma GCC unroll 5
     for (int i = order; i >= 0; i--) {
         int row_degree = -1;
+#pragma GCC unroll 5
         for (int j = order - i; j >= 0; j--) {
             int part_degree = -1;
+#pragma GCC unroll 5
             for (int k = order - i - j; k >= 0; k--) {
                 double term = *c++;
                 part_degree = times_line(part, part_degree, line->base.z, line->along.z);
-                part_degree = term != 0.0 || part_degree >= 0 ? plus(part, part_degree, &term, 0) : part_degree;
+                part_degree =
+                    !skips || term != 0.0 || part_degree >= 0 ? plus(part, part_degree, &term, 0) : part_degree;
             }
             row_degree = times_line(row, row_degree, line->base.y, line->along.y);
             row_degree = plus(row, row_degree, part, part_degree);
@@ -75,6 +82,16 @@ static void compose(const Line *line, double *whole)
     }
     for (int i = whole_degree + 1; i <= order; i++) {
         whole[i] = 0.0;
+    }
+}
+
+static void compose(const Line *line, double *whole)
+{
+    int order = (int)polynomial_order(line->list);
+    if (order == 4) {
+        compose_of(line, 4, false, whole);
+    } else {
+        compose_of(line, order, true, whole);
     }
 }
 
@@ -146,40 +163,41 @@ static void refine(Polynomial *polynomial, const void *owner)
     }
 }
 
-// The sizes of the terms of each coefficient: of all of one degree together, with the greatest coordinate in the place
-// of each.
-static void set_errors(const Line *line, Polynomial *p)
+// The sizes of the terms of each coefficient along the line, of all of one degree together, with the greatest coordinate
+// in the place of each; and how far the coefficients may be off.
+RT_ALWAYS_INLINE void errors_of(const Line *line, int order, double *sizes, double *errors)
 {
-    unsigned order = polynomial_order(line->list), first = line->is_start;
     const double *sums = polynomial_sizes(line->list);
-    double sizes[TERMS_MOST], origin = vec3_max_abs(line->ray->origin);
+    double origin = vec3_max_abs(line->ray->origin);
     double moved = line->t_base == 0.0 ? 0.0 : 0x1p-52 * (origin + vec3_max_abs(line->base)); // by rounding b
     double base = vec3_max_abs(line->base) + moved, along = vec3_max_abs(line->along);
     int degree = -1;
-    for (unsigned i = order + 1; i-- > 0;) {
+#pragma GCC unroll 5
+    for (int i = order; i >= 0; i--) {
         degree = times_line(sizes, degree, base, along);
         degree = plus(sizes, degree, &sums[i], 0);
     }
     double rounding = (6.0 * order + 16.0) * 0x1p-53, by_move = moved / along;
-    for (unsigned i = 0; i <= p->degree; i++) {
-        unsigned at = i + first;
-        p->sizes[i] = sizes[at];
-        p->errors[i] = rounding * sizes[at] + (at < order ? by_move * (at + 1) * sizes[at + 1] : 0.0);
+#pragma GCC unroll 5
+    for (int i = 0; i <= order; i++) {
+        errors[i] = rounding * sizes[i] + (i < order ? by_move * (i + 1) * sizes[i + 1] : 0.0);
     }
 }
 
 static void line_polynomial(const Line *line, Polynomial *p)
 {
-    double whole[TERMS_MOST + 1];
+    double whole[TERMS_MOST + 1], sizes[TERMS_MOST + 1], errors[TERMS_MOST + 1];
     unsigned order = polynomial_order(line->list), first = line->is_start;
     compose(line, whole);
+    errors_of(line, (int)order, sizes, errors);
     p->degree = order - first;
     p->refine = refine;
     p->owner = line;
     for (unsigned i = 0; i <= p->degree; i++) {
         p->terms[i] = whole[i + first];
+        p->sizes[i] = sizes[i + first];
+        p->errors[i] = errors[i + first];
     }
-    set_errors(line, p);
     roots_start(p);
 }
 
@@ -272,50 +290,6 @@ static bool starts_inside(const double *terms, unsigned degree, bool inward)
 
 // ---- quadrics: what the general way finds where doubles tell every sign, for a fifth of its work
 
-// (b + d s) (p[0] + p[1] s) + q, in compose's order of operations.
-static inline void times_line_1(const double p[2], double b, double d, const double q[3], double product[3])
-{
-    product[2] = p[1] * d + q[2];
-    product[1] = p[1] * b + p[0] * d + q[1];
-    product[0] = p[0] * b + q[0];
-}
-
-static inline void times_line_0(double p, double b, double d, double q1, double q0, double product[2])
-{
-    product[1] = p * d + q1;
-    product[0] = p * b + q0;
-}
-
-static void compose_quadric(const Line *line, double whole[3])
-{
-    const double *c = polynomial_terms(line->list);
-    Vec3 b = line->base, d = line->along;
-    double of_xz[2], of_x[2], x_row[2], of_yz[2], y_row[2], z_row[2];
-    times_line_0(c[2], b.z, d.z, 0.0, c[3], of_xz);
-    times_line_0(c[1], b.y, d.y, of_xz[1], of_xz[0], of_x);
-    times_line_0(c[0], b.x, d.x, of_x[1], of_x[0], x_row);
-    times_line_0(c[5], b.z, d.z, 0.0, c[6], of_yz);
-    times_line_0(c[4], b.y, d.y, of_yz[1], of_yz[0], y_row);
-    times_line_0(c[7], b.z, d.z, 0.0, c[8], z_row);
-    times_line_1(z_row, b.z, d.z, (double[3]){c[9], 0.0, 0.0}, whole);
-    times_line_1(y_row, b.y, d.y, whole, whole);
-    times_line_1(x_row, b.x, d.x, whole, whole);
-}
-
-static void quadric_errors(const Line *line, double errors[3])
-{
-    const double *sums = polynomial_sizes(line->list);
-    double origin = vec3_max_abs(line->ray->origin);
-    double moved = line->t_base == 0.0 ? 0.0 : 0x1p-52 * (origin + vec3_max_abs(line->base));
-    double base = vec3_max_abs(line->base) + moved, along = vec3_max_abs(line->along), row[2], sizes[3];
-    times_line_0(sums[2], base, along, 0.0, sums[1], row);
-    times_line_1(row, base, along, (double[3]){sums[0], 0.0, 0.0}, sizes);
-    double rounding = (6.0 * 2.0 + 16.0) * 0x1p-53, by_move = moved / along;
-    errors[0] = rounding * sizes[0] + by_move * 1.0 * sizes[1];
-    errors[1] = rounding * sizes[1] + by_move * 2.0 * sizes[2];
-    errors[2] = rounding * sizes[2];
-}
-
 // Newton's steps from a place that is off by rounding only. False when they do not end at once.
 static bool quadric_root(const Line *line, const double *terms, const double *errors, unsigned degree, double *root)
 {
@@ -337,9 +311,9 @@ static bool quadric_root(const Line *line, const double *terms, const double *er
 // The two roots, none, or whatever double words say. *sign: of what is before the first.
 static bool quadric_roots(const Line *line, double roots[2], unsigned *count, bool *is_inside)
 {
-    double terms[3], errors[3];
-    compose_quadric(line, terms);
-    quadric_errors(line, errors);
+    double terms[3], sizes[3], errors[3];
+    compose_of(line, 2, false, terms);
+    errors_of(line, 2, sizes, errors);
     double middle = -terms[1] / (2.0 * terms[2]), size = fabs(middle);
     double value = (terms[2] * middle + terms[1]) * middle + terms[0];
     if (!(fabs(terms[2]) > errors[2] && fabs(value) > (errors[2] * size + errors[1]) * size + errors[0])) {
@@ -364,9 +338,9 @@ static bool quadric_roots(const Line *line, double roots[2], unsigned *count, bo
 // Behind a start on the surface: the other root, none, or whatever double words say.
 static bool quadric_roots_left(const Line *line, bool inward, double *root, unsigned *count, bool *is_inside)
 {
-    double terms[3], errors[3];
-    compose_quadric(line, terms);
-    quadric_errors(line, errors);
+    double terms[3], sizes[3], errors[3];
+    compose_of(line, 2, false, terms);
+    errors_of(line, 2, sizes, errors);
     if (!(fabs(terms[2]) > errors[2] && fabs(terms[1]) > errors[1])) {
         return false;
     }

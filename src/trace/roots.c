@@ -320,12 +320,31 @@ static unsigned find_between(Polynomial *p, const Range *range, double *roots, i
     return level_roots(p, 0, range, places[now], count, roots, sign);
 }
 
+// Whether a polynomial of degree 4 has no root, as it is for most lines that pass a surface by: of c4 x⁴ + … + c0 the sum
+// of c4 x⁴ + c3 x³ + k c2 x² and (1 - k) c2 x² + c1 x + c0, neither of which is 0 where it has the share k that
+// discriminants ask for.
+static bool is_clear(const Polynomial *p)
+{
+    if (p->degree != 4 || p->is_exact) {
+        return false;
+    }
+    const double *c = p->terms, *e = p->errors, sign = c[4] > 0.0 ? 1.0 : -1.0;
+    double c4 = sign * c[4] - e[4], c2 = sign * c[2] - e[2], c0 = sign * c[0] - e[0];
+    double c3 = fabs(c[3]) + e[3], c1 = fabs(c[1]) + e[1];
+    double product = c4 * c2 * c0;
+    return c4 > 0.0 && c2 > 0.0 && c0 > 0.0 && product > 0x1p-900 && c3 * c3 * c0 + c1 * c1 * c4 < 3.99 * product;
+}
+
 // What double words were wanted for is found once more from better terms.
 unsigned roots_find(Polynomial *p, double low, double high, double *roots, int *sign)
 {
     Range range = {low, high, isinf(low), isinf(high)};
     if (p->degree == 0) {
         *sign = sign_at(p, 0, 0.0);
+        return 0;
+    }
+    if (range.is_low_infinite && range.is_high_infinite && is_clear(p)) {
+        *sign = p->terms[4] > 0.0 ? 1 : -1;
         return 0;
     }
     if (range.is_low_infinite || range.is_high_infinite) {
