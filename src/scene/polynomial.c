@@ -31,10 +31,13 @@ RT_ALWAYS_INLINE Vec3 gradient_of(const double *list, unsigned order, Vec3 p)
     const double *c = polynomial_terms(list);
     double value = 0.0;
     Vec3 gradient = {0.0, 0.0, 0.0};
+#pragma GCC unroll 3
     for (unsigned i = order + 1; i-- > 0;) {
         double row = 0.0, row_y = 0.0, row_z = 0.0;
+#pragma GCC unroll 3
         for (unsigned j = order - i + 1; j-- > 0;) {
             double line = 0.0, line_z = 0.0;
+#pragma GCC unroll 3
             for (unsigned k = order - i - j + 1; k-- > 0;) {
                 line_z = line_z * p.z + line;
                 line = line * p.z + *c++;

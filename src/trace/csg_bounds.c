@@ -231,9 +231,9 @@ static void contract_nodes(const ShapeTable *table, const CsgTree *csg, const Bo
     }
 }
 
-// The box in the scene's space of what is seen; BOUNDS_ALL where there is none.
-static Bounds measure_in(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, const Frame *frame,
-                         Bounds *inner, Bounds *next)
+// Makes the box in the scene's space of what is seen smaller, if it can.
+static void measure_in(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, const Frame *frame,
+                       Bounds *inner, Bounds *next, Bounds *bounds)
 {
     const Bounds *box = &inner[csg->first_node];
     for (uint32_t i = 0; i < csg->node_count; i++) {
@@ -244,27 +244,28 @@ static Bounds measure_in(const ShapeTable *table, const CsgTree *csg, const Boun
         more -= bounds_are_finite(*box);
     }
     if (!bounds_are_finite(*box) || bounds_are_empty(*box)) {
-        return BOUNDS_ALL;
+        return;
     }
     double slack = SLACK * fmax(vec3_max_abs(box->low), vec3_max_abs(box->high));
     Vec3 margin = vec3(slack, slack, slack);
     Bounds larger = {vec3_sub(box->low, margin), vec3_add(box->high, margin)};
-    return box_through(&frame->to_world, frame->centre, &larger);
+    *bounds = bounds_meet(*bounds, box_through(&frame->to_world, frame->centre, &larger));
 }
 
-Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *inner, Bounds *next)
+Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds bounds, Bounds *inner,
+                  Bounds *next)
 {
     const Linear same = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     Frame frame = {vec3(0.0, 0.0, 0.0), same, same};
-    Bounds bounds = measure_in(table, csg, surfaces, &frame, inner, next);
+    measure_in(table, csg, surfaces, &frame, inner, next, &bounds);
     int tried = 0;
     for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count && tried < FRAMES_MOST; i++) {
         const Solid *solid = &table->solids[i];
         if (!bounds_are_finite(bounds) && is_quadric(solid) && !bounds_are_finite(surfaces[i])) {
             frame = (Frame){solid->centre, solid->to_object, solid->to_world};
-            bounds = measure_in(table, csg, surfaces, &frame, inner, next);
+            measure_in(table, csg, surfaces, &frame, inner, next, &bounds);
             tried++;
         }
     }
-    return bounds_are_finite(bounds) ? bounds : BOUNDS_ALL;
+    return bounds;
 }

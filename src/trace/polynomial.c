@@ -206,15 +206,16 @@ static void line_polynomial(const Line *line, Polynomial *p)
 // One over the greatest power of two within a number; ldexp and ilogb are calls.
 static double inverse_power(double x)
 {
-    uint64_t bits, exponent = UINT64_C(0x7ff) << 52;
+    uint64_t bits, exponent = UINT64_C(0x7ff) << 52, both = UINT64_C(2046) << 52;
     memcpy(&bits, &x, sizeof bits);
     bits &= exponent;
-    if (RT_UNLIKELY(bits == 0 || bits == exponent)) {
+    if (RT_UNLIKELY(bits == 0 || bits >= both)) {
         return ldexp(1.0, -ilogb(x));
     }
     double power;
+    bits = both - bits;
     memcpy(&power, &bits, sizeof power);
-    return 1.0 / power;
+    return power;
 }
 
 static void line_set(Line *line, const double *list, const Ray *ray, bool is_start)
@@ -388,12 +389,14 @@ unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left,
 
 // ---- surfaces
 
-Vec3 polynomial_normal(const double *list, Vec3 point)
+Vec3 polynomial_slope(const double *list, Vec3 point)
 {
     Vec3 n = polynomial_gradient(list, point);
     double size = vec3_max_abs(n);
-    if (!(size > 0.0 && size <= 0x1p1000)) {
-        return vec3(1.0, 0.0, 0.0);
-    }
-    return vec3_normalize(vec3_scale(inverse_power(size), n));
+    return size > 0.0 && size <= 0x1p1000 ? vec3_scale(inverse_power(size), n) : vec3(1.0, 0.0, 0.0);
+}
+
+Vec3 polynomial_normal(const double *list, Vec3 point)
+{
+    return vec3_normalize(polynomial_slope(list, point));
 }

@@ -143,9 +143,8 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
     if (!bounds_are_finite(bounds)) {
         bounds = bounds_meet(bounds, planes_bounds(table, csg));
     }
-    return bounds_are_finite(bounds) || csg->solid_count < 2
-               ? bounds
-               : bounds_meet(bounds, csg_bounds(table, csg, surfaces, node_bounds, spare));
+    bool may_be_less = csg->solid_count > 1 && !bounds_are_finite(surface);
+    return may_be_less ? csg_bounds(table, csg, surfaces, bounds, node_bounds, spare) : bounds;
 }
 
 static bool node_is_all(const TreeNode *node)
