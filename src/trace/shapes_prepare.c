@@ -176,12 +176,13 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         if (solid_is_mesh(solid)) {
             solid->mesh.cursor = csg->mesh_count++;
         }
-        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid_is_convex(solid);
+        solid->is_needed = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && !solid_is_mesh(solid);
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
             solid->flips = solid->flips != node->is_inverse;
-            solid->decides = solid->decides && node_is_all(node) && !node->is_inverse;
+            solid->is_needed = solid->is_needed && node_is_all(node) && !node->is_inverse;
         }
+        solid->decides = solid->is_needed && solid_is_convex(solid);
     }
 }
 
