@@ -1,9 +1,10 @@
 // Boxes of composites by contraction: a box that holds what is looked for is made smaller by one part after the other.
 //
-// What is seen of an intersection lies in all of its children, so each of them may take of the box what cannot be in it;
-// of a union, the box around what the children leave. A plane bounds a coordinate by the others, a quadric the roots of
-// a quadratic in one coordinate. Some rounds end in a finite box where the planes lie across the axes of the quadrics,
-// which is so in the space of the quadrics themselves if it is anywhere: turned composites are measured there.
+// What is seen of an intersection lies in all of its children, so each of them may take of the box what cannot be in
+// it; of a union, the box around what the children leave. A plane bounds a coordinate by the others, a quadric the
+// roots of a quadratic in one coordinate. Some rounds end in a finite box where the planes lie across the axes of the
+// quadrics, which is so in the space of the quadrics themselves if it is anywhere: turned composites are measured
+// there.
 //
 // Coefficients that rounding alone may have made are left out, which moves a surface by at most 2^-14 of the box; so
 // much is added, far more than rounding.
@@ -154,7 +155,8 @@ static void quadric_contract(const Quadric *q, Bounds *box)
 static Quadric quadric_in(const Solid *solid, const Frame *frame)
 {
     const double *c = polynomial_terms(solid->list.items);
-    const double s[3][3] = {{c[0], 0.5 * c[1], 0.5 * c[2]}, {0.5 * c[1], c[4], 0.5 * c[5]}, {0.5 * c[2], 0.5 * c[5], c[7]}};
+    const double s[3][3] = {
+        {c[0], 0.5 * c[1], 0.5 * c[2]}, {0.5 * c[1], c[4], 0.5 * c[5]}, {0.5 * c[2], 0.5 * c[5], c[7]}};
     const Vec3 linear = {c[3], c[6], c[8]};
     Vec3 m = linear_direction(&solid->to_object, vec3_sub(frame->centre, solid->centre)), rows[3], along[3];
     for (int i = 0; i < 3; i++) {

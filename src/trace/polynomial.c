@@ -163,8 +163,8 @@ static void refine(Polynomial *polynomial, const void *owner)
     }
 }
 
-// The sizes of the terms of each coefficient along the line, of all of one degree together, with the greatest coordinate
-// in the place of each; and how far the coefficients may be off.
+// The sizes of the terms of each coefficient along the line, of all of one degree together, with the greatest
+// coordinate in the place of each; and how far the coefficients may be off.
 RT_ALWAYS_INLINE void errors_of(const Line *line, int order, double *sizes, double *errors)
 {
     const double *sums = polynomial_sizes(line->list);
@@ -249,7 +249,8 @@ static unsigned line_roots(const Line *line, Polynomial *p, double low, double *
     unsigned count = roots_find(p, low, high, roots, sign);
     bool are_good = true, were_exact = p->is_exact; // their errors are those of then
     for (unsigned i = 0; i < count && !were_exact; i++) {
-        if ((p->is_exact || !root_is_good(line, p->terms, p->errors, p->degree, roots[i])) && !roots_refine(p, &roots[i])) {
+        if ((p->is_exact || !root_is_good(line, p->terms, p->errors, p->degree, roots[i])) &&
+            !roots_refine(p, &roots[i])) {
             are_good = false;
         }
     }
@@ -285,7 +286,7 @@ static unsigned make_intervals(const Line *line, const double *roots, unsigned c
 // bend decides.
 static bool starts_inside(const double *terms, unsigned degree, bool inward)
 {
-    bool falls = terms[0] < 0.0, bends = degree > 0 && terms[1] < 0.0;
+    bool falls = terms[0]<0.0, bends = degree> 0 && terms[1] < 0.0;
     return inward ? falls || bends : falls && bends;
 }
 
@@ -380,9 +381,9 @@ unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left,
     unsigned count;
     bool is_start = left.side != SIDE_NONE, is_inside;
     line_set(&line, list, ray, is_start);
-    bool is_told = polynomial_order(list) == 2 &&
-                   (is_start ? quadric_roots_left(&line, left.inward, roots, &count, &is_inside)
-                             : quadric_roots(&line, roots, &count, &is_inside));
+    bool is_told =
+        polynomial_order(list) == 2 && (is_start ? quadric_roots_left(&line, left.inward, roots, &count, &is_inside)
+                                                 : quadric_roots(&line, roots, &count, &is_inside));
     return is_told ? make_intervals(&line, roots, count, is_inside, intervals)
                    : line_intervals(&line, left.inward, intervals);
 }

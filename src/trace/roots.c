@@ -178,11 +178,12 @@ static double root_guess(const Polynomial *p, unsigned level, double low, double
     return guess > low && guess < high ? guess : 0.5 * (low + high);
 }
 
-// The place of a sign change between two places, for a sign before it, from a guess; Newton's steps as long as they stay
-// between.
+// The place of a sign change between two places, for a sign before it, from a guess; Newton's steps as long as they
+// stay between.
 static double root_between(const Polynomial *p, unsigned level, double low, double high, int sign, double guess)
 {
     double x = guess, before = high - low;
+    const double enough = level > 0 ? 0x1p-26 : 0x1p-52; // of x: a step squares what is off, and places only divide
     for (int i = 0; i < STEPS_MOST && low < x && x < high; i++) {
         double slope, value = value_and_slope(p, level, x, &slope);
         if (value == 0.0) {
@@ -190,7 +191,7 @@ static double root_between(const Polynomial *p, unsigned level, double low, doub
         }
         *((value > 0.0) == (sign > 0) ? &low : &high) = x;
         double next = x - value / slope, change = fabs(next - x);
-        if (change <= 0x1p-52 * fabs(x)) {
+        if (change <= enough * fabs(x)) {
             return next > low && next < high ? next : x;
         }
         bool is_slow = !(next > low && next < high) || !(2.0 * change < before);
@@ -320,8 +321,8 @@ static unsigned find_between(Polynomial *p, const Range *range, double *roots, i
     return level_roots(p, 0, range, places[now], count, roots, sign);
 }
 
-// Whether a polynomial of degree 4 has no root, as it is for most lines that pass a surface by: of c4 x⁴ + … + c0 the sum
-// of c4 x⁴ + c3 x³ + k c2 x² and (1 - k) c2 x² + c1 x + c0, neither of which is 0 where it has the share k that
+// Whether a polynomial of degree 4 has no root, as it is for most lines that pass a surface by: of c4 x⁴ + … + c0 the
+// sum of c4 x⁴ + c3 x³ + k c2 x² and (1 - k) c2 x² + c1 x + c0, neither of which is 0 where it has the share k that
 // discriminants ask for.
 static bool is_clear(const Polynomial *p)
 {

@@ -161,6 +161,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
                      .solid_count = composite->part_count,
                      .hidden = composite->hidden,
                      .interval_most = 1,
+                     .is_convex = true,
                      .order = composite->order};
     csg->is_plain = csg->node_count == 1 && csg->solid_count <= CSG_PLAIN_MOST &&
                     node_is_all(&table->nodes[csg->first_node]) && !table->nodes[csg->first_node].is_inverse;
@@ -169,6 +170,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
         solid->composite = index;
         csg->is_plain = csg->is_plain && solid_is_convex(solid) && !solid_is_flat(solid);
+        csg->is_convex = csg->is_convex && solid_is_convex(solid);
         csg->interval_most = solid->interval_most > csg->interval_most ? solid->interval_most : csg->interval_most;
         csg->crossing_count += solid_is_mesh(solid)   ? MESH_CROSSINGS
                                : solid_is_flat(solid) ? 2

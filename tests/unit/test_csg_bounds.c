@@ -158,8 +158,9 @@ static void test_form(uint64_t seed, const Form *form)
         geometry_free(g);
         scene_fini(&scene);
     }
-    tap_ok(found.differ == 0 && found.met > 1000, "%s: in a box as without one (%d of %d rays differ, %d met something)",
-           form->name, found.differ, found.rays, found.met);
+    tap_ok(found.differ == 0 && found.met > 1000,
+           "%s: in a box as without one (%d of %d rays differ, %d met something)", form->name, found.differ, found.rays,
+           found.met);
     tap_ok(!form->is_bounded || found.bounded >= 0.9 * found.composites, "%s: %d of %d have a box", form->name,
            found.bounded, found.composites);
 }
