@@ -36,6 +36,7 @@ unit_programs = \
   tests/unit/test_abreast \
   tests/unit/test_along \
   tests/unit/test_crackle \
+  tests/unit/test_csg_bounds \
   tests/unit/test_half_spaces \
   tests/unit/test_trace_sphere \
   tests/unit/test_trace_certified \
@@ -121,6 +122,8 @@ tests/unit/test_trace_certified.$(OBJEXT): src/study/optional.h
 trace_headers = %D%/unit/trace_scenes.h $(unit_headers)
 tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c $(trace_headers)
 tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)
+tests_unit_test_csg_bounds_SOURCES = %D%/unit/test_csg_bounds.c $(trace_headers)
+tests_unit_test_csg_bounds_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_csg_SOURCES = %D%/unit/test_trace_csg.c $(trace_headers)
 tests_unit_test_trace_csg_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_parts_SOURCES = %D%/unit/test_trace_parts.c $(trace_headers)

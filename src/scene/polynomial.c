@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "base/attributes.h"
+
 double polynomial_value(const double *list, Vec3 p)
 {
     unsigned order = polynomial_order(list);
@@ -24,16 +26,18 @@ double polynomial_value(const double *list, Vec3 p)
     return value;
 }
 
-Vec3 polynomial_gradient(const double *list, Vec3 p)
+RT_ALWAYS_INLINE Vec3 gradient_of(const double *list, unsigned order, Vec3 p)
 {
-    unsigned order = polynomial_order(list);
     const double *c = polynomial_terms(list);
     double value = 0.0;
     Vec3 gradient = {0.0, 0.0, 0.0};
+#pragma GCC unroll 3
     for (unsigned i = order + 1; i-- > 0;) {
         double row = 0.0, row_y = 0.0, row_z = 0.0;
+#pragma GCC unroll 3
         for (unsigned j = order - i + 1; j-- > 0;) {
             double line = 0.0, line_z = 0.0;
+#pragma GCC unroll 3
             for (unsigned k = order - i - j + 1; k-- > 0;) {
                 line_z = line_z * p.z + line;
                 line = line * p.z + *c++;
@@ -48,6 +52,12 @@ Vec3 polynomial_gradient(const double *list, Vec3 p)
         value = value * p.x + row;
     }
     return gradient;
+}
+
+// Quadrics are the most by far: their loops are unrolled.
+Vec3 polynomial_gradient(const double *list, Vec3 p)
+{
+    return polynomial_order(list) == 2 ? gradient_of(list, 2, p) : gradient_of(list, polynomial_order(list), p);
 }
 
 static void set_sizes(unsigned order, double *list)

@@ -147,11 +147,29 @@ static void traversal_judge_seen(CsgTraversal *p, double limit)
     p->is_over = p->is_over || isinf(p->first_surface) || traversal_is_beyond(p, p->first_surface, limit);
 }
 
+// Where some solids are not convex, the others, which cost less, are asked first: mostly those that are needed are
+// missed.
+static void traversal_begin_convex(CsgTraversal *p, RayStart start, double limit, bool has_meshes)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        for (uint32_t i = 0; i < p->csg->solid_count && !p->is_over; i++) {
+            if (solid_is_convex(traversal_solid(p, i)) == (turn == 0)) {
+                traversal_ask(p, i, start, has_meshes);
+            }
+        }
+    }
+    traversal_judge_seen(p, limit);
+}
+
 // Finds the crossings.
 RT_ALWAYS_INLINE void traversal_begin(CsgTraversal *p, RayStart start, double limit, bool has_meshes)
 {
+    if (!p->csg->is_convex) {
+        traversal_begin_convex(p, start, limit, has_meshes);
+        return;
+    }
     for (uint32_t i = 0; i < p->csg->solid_count && !p->is_over; i++) {
-        traversal_ask(p, i, start, has_meshes);
+        traversal_ask(p, i, start, false);
         if (i + 1 == p->csg->seen_count) {
             traversal_judge_seen(p, limit);
         }

@@ -46,7 +46,7 @@ typedef struct CsgTraversal {
     uint32_t count;
     MeshCursor *cursors;                // of its meshes
     bool is_over;                       // nothing more of it can be seen
-    double decided_from, decided_until; // where the ray is inside of all that decide, as far as it is known
+    double decided_from, decided_until; // where the ray may be inside of all that are needed, as far as it is known
 } CsgTraversal;
 
 static const Solid *traversal_solid(const CsgTraversal *p, uint32_t index)
@@ -196,7 +196,7 @@ static void traversal_flat(CsgTraversal *p, uint32_t index, RayStart start)
     }
 }
 
-// The ray is inside of a solid that decides from `enter` to `leave` and nowhere else. Where one of them is left before
+// The ray is inside of a solid that is needed nowhere but from `enter` to `leave`. Where one of them is left before
 // another is come to, no surface shows: at each crossing one of the two is outside, before it and after it.
 static void traversal_decide(CsgTraversal *p, double enter, double leave)
 {
@@ -324,22 +324,25 @@ RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, Ray
         count = solid_intervals(solid, object, left, intervals);
     }
     bool is_met = false, is_inside = false;
+    double enter = 0.0, leave = 0.0;
     for (unsigned i = 0; i < count; i++) {
         const RayInterval *interval = &intervals[i];
         double room = solid_is_convex(solid) ? interval->leave - interval->enter : interval_room(intervals, count, i);
-        if ((solid->decides && interval->leave < p->decided_from) || // whether it is past or not
+        if ((solid->is_needed && interval->leave < p->decided_from) || // whether it is past or not
             traversal_is_past(p, index, interval->leave, interval->leave_side, room, is_beside)) {
             continue;
         }
         bool starts_inside = traversal_interval(p, index, interval, room, is_start, is_beside);
-        if (solid->decides) {
-            traversal_decide(p, starts_inside ? 0.0 : interval->enter, interval->leave);
-        }
+        enter = is_met || starts_inside ? enter : interval->enter;
+        leave = interval->leave;
         is_inside = is_inside || starts_inside;
         is_met = true;
     }
     p->is_inside[index] = is_inside;
-    p->is_over = p->is_over || (solid->decides && !is_met);
+    if (solid->is_needed && is_met) {
+        traversal_decide(p, enter, leave);
+    }
+    p->is_over = p->is_over || (solid->is_needed && !is_met);
 }
 
 #endif

@@ -12,7 +12,9 @@
 // The intervals of the line where the polynomial is less than 0, in order: order / 2 + 1 at most. Returns how many.
 unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left, RayInterval *intervals);
 
-// Of unit length, out of what is inside; where the surface has none, along x.
+// Out of what is inside, at most 4 long; where the surface has no normal, along x.
+Vec3 polynomial_slope(const double *list, Vec3 point);
+// The same of unit length.
 Vec3 polynomial_normal(const double *list, Vec3 point);
 
 #endif

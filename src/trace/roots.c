@@ -168,10 +168,22 @@ static double value_and_slope(const Polynomial *p, unsigned level, double x, dou
     return value;
 }
 
-// The place of a sign change between two places, for a sign before it; Newton's steps as long as they stay between.
-static double root_between(const Polynomial *p, unsigned level, double low, double high, int sign)
+// Where a root between two places may be, as the curvature at one of them says, at which the slope is 0; their middle
+// where that is no place between.
+static double root_guess(const Polynomial *p, unsigned level, double low, double high, double flat)
 {
-    double x = 0.5 * (low + high), before = high - low;
+    double turn = p->degree - level >= 2 ? value_at(p, level + 2, flat) : 0.0;
+    double way = sqrt(fmax(-2.0 * value_at(p, level, flat) / turn, 0.0)); // of NaN 0
+    double guess = flat == low ? low + way : high - way;
+    return guess > low && guess < high ? guess : 0.5 * (low + high);
+}
+
+// The place of a sign change between two places, for a sign before it, from a guess; Newton's steps as long as they
+// stay between.
+static double root_between(const Polynomial *p, unsigned level, double low, double high, int sign, double guess)
+{
+    double x = guess, before = high - low;
+    const double enough = level > 0 ? 0x1p-26 : 0x1p-52; // of x: a step squares what is off, and places only divide
     for (int i = 0; i < STEPS_MOST && low < x && x < high; i++) {
         double slope, value = value_and_slope(p, level, x, &slope);
         if (value == 0.0) {
@@ -179,7 +191,7 @@ static double root_between(const Polynomial *p, unsigned level, double low, doub
         }
         *((value > 0.0) == (sign > 0) ? &low : &high) = x;
         double next = x - value / slope, change = fabs(next - x);
-        if (change <= 0x1p-52 * fabs(x)) {
+        if (change <= enough * fabs(x)) {
             return next > low && next < high ? next : x;
         }
         bool is_slow = !(next > low && next < high) || !(2.0 * change < before);
@@ -254,7 +266,8 @@ static unsigned level_roots(Polynomial *p, unsigned level, const Range *range, c
         if (sign == 0) {
             *first = *first == 0 ? next : *first;
         } else if (sign != next) {
-            roots[count++] = root_between(p, level, from, to, sign);
+            double guess = i > 0 || !is_last ? root_guess(p, level, from, to, i > 0 ? from : to) : 0.5 * (from + to);
+            roots[count++] = root_between(p, level, from, to, sign, guess);
         }
         sign = next;
         from = to;
@@ -308,12 +321,31 @@ static unsigned find_between(Polynomial *p, const Range *range, double *roots, i
     return level_roots(p, 0, range, places[now], count, roots, sign);
 }
 
+// Whether a polynomial of degree 4 has no root, as it is for most lines that pass a surface by: of c4 x⁴ + … + c0 the
+// sum of c4 x⁴ + c3 x³ + k c2 x² and (1 - k) c2 x² + c1 x + c0, neither of which is 0 where it has the share k that
+// discriminants ask for.
+static bool is_clear(const Polynomial *p)
+{
+    if (p->degree != 4 || p->is_exact) {
+        return false;
+    }
+    const double *c = p->terms, *e = p->errors, sign = c[4] > 0.0 ? 1.0 : -1.0;
+    double c4 = sign * c[4] - e[4], c2 = sign * c[2] - e[2], c0 = sign * c[0] - e[0];
+    double c3 = fabs(c[3]) + e[3], c1 = fabs(c[1]) + e[1];
+    double product = c4 * c2 * c0;
+    return c4 > 0.0 && c2 > 0.0 && c0 > 0.0 && product > 0x1p-900 && c3 * c3 * c0 + c1 * c1 * c4 < 3.99 * product;
+}
+
 // What double words were wanted for is found once more from better terms.
 unsigned roots_find(Polynomial *p, double low, double high, double *roots, int *sign)
 {
     Range range = {low, high, isinf(low), isinf(high)};
     if (p->degree == 0) {
         *sign = sign_at(p, 0, 0.0);
+        return 0;
+    }
+    if (range.is_low_infinite && range.is_high_infinite && is_clear(p)) {
+        *sign = p->terms[4] > 0.0 ? 1 : -1;
         return 0;
     }
     if (range.is_low_infinite || range.is_high_infinite) {
@@ -369,7 +401,7 @@ unsigned roots_find_about(Polynomial *p, double half, double *roots, int *sign)
             return 0;
         }
         if (is_known && changes == 1) {
-            roots[0] = root_between(p, 0, -half, half, *sign);
+            roots[0] = root_between(p, 0, -half, half, *sign, 0.0);
             return 1;
         }
     }

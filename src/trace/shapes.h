@@ -55,6 +55,7 @@ typedef struct CsgTree {
     uint32_t interval_most;  // of one of its solids
     uint8_t hidden;
     bool is_plain; // all of a few convex solids in one node
+    bool is_convex; // its solids are
     uint32_t order;
     uint32_t seen_count; // its solids from there on only clip others
     uint32_t mesh_count;

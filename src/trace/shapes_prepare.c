@@ -6,6 +6,7 @@
 
 #include "base/intern.h"
 #include "scene/part.h"
+#include "trace/csg_bounds.h"
 #include "trace/csg_parts.h"
 #include "trace/half_spaces.h"
 #include "trace/shapes_clusters.h"
@@ -115,7 +116,8 @@ static Bounds planes_bounds(const ShapeTable *table, const CsgTree *csg)
 
 // What the nodes count of children, from the leaves up, and the box of what is seen: that of the root, of which it does
 // not matter whether it is taken from all space, within that of all surfaces. Children stand behind their parents.
-static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *node_bounds)
+static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *node_bounds,
+                          Bounds *spare)
 {
     uint32_t first = csg->first_node;
     Bounds surface = BOUNDS_NONE;
@@ -139,7 +141,11 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
         node_take(parent, &node_bounds[node->parent], &bounds);
     }
     Bounds bounds = bounds_meet(surface, node_bounds[first]);
-    return bounds_are_finite(bounds) ? bounds : bounds_meet(bounds, planes_bounds(table, csg));
+    if (!bounds_are_finite(bounds)) {
+        bounds = bounds_meet(bounds, planes_bounds(table, csg));
+    }
+    bool may_be_less = csg->solid_count > 1 && !bounds_are_finite(surface);
+    return may_be_less ? csg_bounds(table, csg, surfaces, bounds, node_bounds, spare) : bounds;
 }
 
 static bool node_is_all(const TreeNode *node)
@@ -156,6 +162,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
                      .solid_count = composite->part_count,
                      .hidden = composite->hidden,
                      .interval_most = 1,
+                     .is_convex = true,
                      .order = composite->order};
     csg->is_plain = csg->node_count == 1 && csg->solid_count <= CSG_PLAIN_MOST &&
                     node_is_all(&table->nodes[csg->first_node]) && !table->nodes[csg->first_node].is_inverse;
@@ -164,6 +171,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
         solid->composite = index;
         csg->is_plain = csg->is_plain && solid_is_convex(solid) && !solid_is_flat(solid);
+        csg->is_convex = csg->is_convex && solid_is_convex(solid);
         csg->interval_most = solid->interval_most > csg->interval_most ? solid->interval_most : csg->interval_most;
         csg->crossing_count += solid_is_mesh(solid)   ? MESH_CROSSINGS
                                : solid_is_flat(solid) ? 2
@@ -171,12 +179,13 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         if (solid_is_mesh(solid)) {
             solid->mesh.cursor = csg->mesh_count++;
         }
-        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid_is_convex(solid);
+        solid->is_needed = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && !solid_is_mesh(solid);
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
             solid->flips = solid->flips != node->is_inverse;
-            solid->decides = solid->decides && node_is_all(node) && !node->is_inverse;
+            solid->is_needed = solid->is_needed && node_is_all(node) && !node->is_inverse;
         }
+        solid->decides = solid->is_needed && solid_is_convex(solid);
     }
 }
 
@@ -250,7 +259,7 @@ static bool meshes_init(ShapeTable *table, const Scene *scene, int threads, cons
 // ---- the tree
 
 typedef struct Work {
-    Bounds *solids, *nodes; // the roots' boxes are those of their csg_trees
+    Bounds *solids, *nodes; // the roots' boxes are those of their csg_trees; nodes: twice as many, the rest spare
     ShapeItem *bounded;
     Bounds *clusters;
     Pages solid_pages, bounded_pages, ref_pages;
@@ -469,7 +478,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
     for (uint32_t i = 0; i < table->csg_count; i++) {
         CsgTree *csg = &table->csg_trees[i];
         Bounds *root = &work->nodes[csg->first_node];
-        *root = csg_measure(table, csg, work->solids, work->nodes);
+        *root = csg_measure(table, csg, work->solids, work->nodes, work->nodes + table->node_count);
         if (csg->solid_count > 0) {
             add_item(table, work, table->solid_count + i, root);
         }
@@ -485,7 +494,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
 static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
 {
     size_t most = scene->parts.count + scene->composites.count;
-    work->nodes = malloc((scene->nodes.count + 1) * sizeof *work->nodes);
+    work->nodes = malloc((2 * scene->nodes.count + 1) * sizeof *work->nodes);
     table->nodes = malloc((scene->nodes.count + 1) * sizeof *table->nodes);
     table->csg_trees = calloc(scene->composites.count + 1, sizeof *table->csg_trees); // without trees of parts
     if (!work->nodes || !table->nodes || !table->csg_trees ||

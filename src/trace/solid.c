@@ -266,6 +266,12 @@ static Vec3 polynomial_side_normal(const Solid *solid, Vec3 point, uint8_t side)
     return polynomial_normal(solid->list.items, point);
 }
 
+static Vec3 polynomial_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return polynomial_slope(solid->list.items, point);
+}
+
 // ---- blob
 
 static unsigned blob_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
@@ -352,7 +358,7 @@ const SolidClass solid_classes[PART_KINDS] = {
                     .films = 1 << TORUS_INNER},
     [PART_POLYNOMIAL] = {.intervals = polynomial_side_intervals,
                          .normal = polynomial_side_normal,
-                         .gradient = polynomial_side_normal,
+                         .gradient = polynomial_side_gradient,
                          .point = same_point,
                          .axes = box_axes},
     [PART_BLOB] = {.intervals = blob_side_intervals,

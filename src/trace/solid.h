@@ -45,7 +45,8 @@ typedef struct Solid {
     uint8_t films;         // a bit for each side that is seen and bounds nothing, within the shape
     uint8_t flags, hidden; // of the composite, if it is in one
     bool flips;            // the outside of what the part is in is this part's inside
-    bool decides;          // outside of it nothing is seen of the composite; a line is inside of it once
+    bool is_needed;        // outside of it nothing is seen of the composite
+    bool decides;          // likewise, and a line is inside of it once
     uint32_t node;         // of the geometry; NODE_NONE alone
     uint32_t composite;    // NODE_NONE alone
     uint32_t twin;         // of a ball: the slot of a sphere that equals it, SLOT_NONE if there is none

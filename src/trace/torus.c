@@ -162,10 +162,11 @@ static double extremum(const TorusLine *line, double low, double high, bool rise
     return s;
 }
 
-// The root of h between two places where its signs differ; `falls`: it is positive at the first.
-static double root_between(const TorusLine *line, double low, double high, bool falls)
+// The root of h between two places where its signs differ; `falls`: it is positive at the first. `guess`: where it may
+// be.
+static double root_between(const TorusLine *line, double low, double high, bool falls, double guess)
 {
-    double s = 0.5 * (low + high);
+    double s = guess > low && guess < high ? guess : 0.5 * (low + high);
     for (int i = 0; i < STEPS_MOST && low < s && s < high; i++) {
         double height = height_at(line, s), slope = 2.0 * slope_at(line, s, true), next = s - height / slope;
         if (height == 0.0) {
@@ -197,7 +198,7 @@ static void piece_roots(const TorusLine *line, const Piece *piece, TorusRoots *r
 {
     bool is_out = piece->is_out_low;
     if (is_out != piece->is_out_high) {
-        roots->s[roots->count++] = root_between(line, piece->low, piece->high, is_out);
+        roots->s[roots->count++] = root_between(line, piece->low, piece->high, is_out, piece->low);
         return;
     }
     if (is_out != piece->is_convex || piece->has_start || !(piece->low < piece->high)) {
@@ -210,8 +211,9 @@ static void piece_roots(const TorusLine *line, const Piece *piece, TorusRoots *r
     double middle = extremum(line, piece->low, piece->high, piece->is_convex);
     double height = height_at(line, middle);
     if (height != 0.0 && (height > 0.0) != is_out) {
-        roots->s[roots->count++] = root_between(line, piece->low, middle, is_out);
-        roots->s[roots->count++] = root_between(line, middle, piece->high, !is_out);
+        double way = sqrt(greater_of(-height / bend_at(line, middle), 0.0)); // as far as the curvature says
+        roots->s[roots->count++] = root_between(line, piece->low, middle, is_out, middle - way);
+        roots->s[roots->count++] = root_between(line, middle, piece->high, !is_out, middle + way);
     }
 }
 
