@@ -1,9 +1,9 @@
 // A tile of camera rays against parts that stand alone and composites: part of spheres_kernel.c.
 //
 // The tile walks the tree once, as a beam. Solids whose kind has a test in lanes are asked a vector of rays at a time,
-// and what is not decided with a margin is decided ray by ray, so hits are those of single rays. A ball is first asked
+// and what is not decided with a margin is decided ray by ray, so hits are those of single rays. First a ball is asked
 // which rays may meet it: seen from their one origin it is a cone, with a margin far above rounding, so that none is
-// left out. All other shapes are gathered, and walked by each ray.
+// left out; other solids are asked which rows of rays they touch. All other shapes are gathered, and walked by each ray.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_TILE_H
@@ -12,6 +12,7 @@
 #include "trace/cone_test.h"
 #include "trace/shapes_walk.h"
 #include "trace/solid_lanes_surface.h"
+#include "trace/tile_planes.h"
 
 enum { SOLID_NONE = UINT32_MAX };
 
@@ -27,6 +28,7 @@ typedef struct ShapesTile {
     double limit;            // up to where something may yet be the first of some ray
     _Alignas(64) double enter[TILE_RAYS]; // bounded_enter of a ShapeQuery
     _Alignas(64) int64_t shape[TILE_RAYS]; // of the hits, as wide as their roots
+    TilePlanes planes;
     ShapeBeam others; // what has no test in lanes
 } ShapesTile;
 
@@ -192,14 +194,27 @@ RT_ALWAYS_INLINE void tile_solid_lanes(ShapesTile *of, const TileSolid *own, Par
     }
 }
 
-RT_ALWAYS_INLINE void tile_solid_kind(ShapesTile *of, const Solid *solid, PartKind kind, const ItemBox *box)
+// The rays for which something may yet be the first that is no nearer than that.
+static uint64_t tile_open_rays(const TileForemost *first, double nearest)
 {
-    uint64_t may = UINT64_MAX;
-    Vec3 f = linear_direction(&solid->to_object, vec3_sub(of->tile->origin, solid->centre));
+    uint64_t open = 0;
+    for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
+        open |= (uint64_t)doubles_ge(doubles_load(&first->limit[i]), doubles_splat(nearest)) << i;
+    }
+    return open;
+}
+
+// `may` are the rays that are asked.
+RT_ALWAYS_INLINE void tile_solid_kind(ShapesTile *of, const Solid *solid, PartKind kind, const ItemBox *box,
+                                      uint64_t may)
+{
+    Vec3 offset = vec3_sub(of->tile->origin, solid->centre), f = linear_direction(&solid->to_object, offset);
     if (kind == PART_SPHERE) {
         BallView view;
         ball_view(solid, f, &view);
-        may = ball_view_rays(&view, of->tile);
+        may &= ball_view_rays(&view, of->tile);
+    } else {
+        may &= rows_rays(solid_rows(&of->planes, of->tile, solid, kind, vec3_neg(offset)));
     }
     if (!may) {
         return;
@@ -214,17 +229,19 @@ RT_ALWAYS_INLINE void tile_solid_kind(ShapesTile *of, const Solid *solid, PartKi
     }
 }
 
-static void tile_solid(ShapesTile *of, const Solid *solid, const ItemBox *box)
+// No ray meets the box before `nearest`.
+static void tile_solid(ShapesTile *of, const Solid *solid, const ItemBox *box, double nearest)
 {
-    if (solid->hidden & HIDDEN_CAMERA) {
+    uint64_t may = tile_open_rays(of->first, nearest);
+    if ((solid->hidden & HIDDEN_CAMERA) || !may) {
         return;
     }
     switch (solid->kind) {
-    case PART_SPHERE: tile_solid_kind(of, solid, PART_SPHERE, box); break;
-    case PART_BOX: tile_solid_kind(of, solid, PART_BOX, box); break;
-    case PART_CONE: tile_solid_kind(of, solid, PART_CONE, box); break;
-    case PART_DISC: tile_solid_kind(of, solid, PART_DISC, box); break;
-    default: tile_solid_kind(of, solid, PART_TRIANGLE, box);
+    case PART_SPHERE: tile_solid_kind(of, solid, PART_SPHERE, box, may); break;
+    case PART_BOX: tile_solid_kind(of, solid, PART_BOX, box, may); break;
+    case PART_CONE: tile_solid_kind(of, solid, PART_CONE, box, may); break;
+    case PART_DISC: tile_solid_kind(of, solid, PART_DISC, box, may); break;
+    default: tile_solid_kind(of, solid, PART_TRIANGLE, box, may);
     }
 }
 
@@ -282,7 +299,7 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
         }
         if (child & BVH_LEAF) {
             uint32_t at = bvh_leaf_first(child);
-            tile_solid(of, &of->table->solids[item_index(items[at])], &of->table->boxes[at]);
+            tile_solid(of, &of->table->solids[item_index(items[at])], &of->table->boxes[at], bvh_walk_parameter(walk, key));
             of->limit = !~of->hits->met ? tile_limit(of->first) : of->limit;
             continue;
         }
@@ -362,6 +379,7 @@ static void shapes_closest_tile(const ShapeTable *table, const SphereTile *tile,
     of.first = first;
     of.hits = first->hits;
     of.bounded = of.approximate = 0;
+    of.planes.has_planes = of.planes.has_rows = false;
     of.far = vec3_length(tile->origin);
     of.limit = ~of.hits->met ? (double)INFINITY : tile_limit(first);
     for (unsigned i = 0; i < TILE_RAYS; i++) {
