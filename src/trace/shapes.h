@@ -74,7 +74,9 @@ static inline uint32_t item_index(ShapeItem item)
 // Whether some rays are tested against a solid of that kind at once (trace/solid_lanes.h).
 static inline bool kind_has_lanes(PartKind kind)
 {
-    return kind == PART_SPHERE || kind == PART_BOX || kind == PART_CONE || kind == PART_DISC || kind == PART_TRIANGLE;
+    const unsigned kinds = 1u << PART_SPHERE | 1u << PART_BOX | 1u << PART_CONE | 1u << PART_DISC | 1u << PART_TRIANGLE |
+                           1u << PART_SMOOTH_TRIANGLE;
+    return kinds >> kind & 1;
 }
 
 // The box of an item as its leaf has it: in the tree's coordinates, rounded outward.

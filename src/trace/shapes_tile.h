@@ -148,7 +148,7 @@ RT_ALWAYS_INLINE void tile_take_lanes(ShapesTile *of, const Solid *solid, PartKi
 {
     DoublesMask *shape = (DoublesMask *)&of->shape[at];
     DoublesMask met = ((DoublesMask){0} + part_shape((uint32_t)(solid - of->table->solids), 0)) | lanes->side;
-    bool flips = solid->flips && kind != PART_DISC && kind != PART_TRIANGLE;
+    bool flips = solid->flips && !solid_is_flat(solid);
     doubles_store(&of->hits->t[at], doubles_choose_bits(nearest, lanes->root, doubles_load(&of->hits->t[at])));
     *shape = (DoublesMask)doubles_choose_bits(nearest, (Doubles)met, (Doubles)*shape);
     lane_bits_set(&of->hits->met, at, nearest, ~0u);
@@ -241,7 +241,8 @@ static void tile_solid(ShapesTile *of, const Solid *solid, const ItemBox *box, d
     case PART_BOX: tile_solid_kind(of, solid, PART_BOX, box, may); break;
     case PART_CONE: tile_solid_kind(of, solid, PART_CONE, box, may); break;
     case PART_DISC: tile_solid_kind(of, solid, PART_DISC, box, may); break;
-    default: tile_solid_kind(of, solid, PART_TRIANGLE, box, may);
+    case PART_TRIANGLE: tile_solid_kind(of, solid, PART_TRIANGLE, box, may); break;
+    default: tile_solid_kind(of, solid, PART_SMOOTH_TRIANGLE, box, may);
     }
 }
 

@@ -275,12 +275,49 @@ RT_ALWAYS_INLINE bool cone_lanes(const LaneSolid *own, const Doubles f[3], const
     return interval_lanes_first(own, &interval, asked, lanes);
 }
 
+// smooth_normal of each, from the normals at the corners.
+RT_ALWAYS_INLINE void smooth_lanes(const Doubles corners[3][3], Doubles x, Doubles y, Doubles normal[3])
+{
+    const Doubles zero = doubles_splat(0.0);
+    Doubles first = 1.0 - x - y;
+    DoublesMask cancel = ~(DoublesMask){0};
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; axis++) {
+        normal[axis] = first * corners[0][axis] + x * corners[1][axis] + y * corners[2][axis];
+        cancel &= normal[axis] == zero;
+    }
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; axis++) {
+        normal[axis] = doubles_choose(cancel, corners[0][axis], normal[axis]);
+    }
+}
+
+// Whether rays come from below where they meet a smooth triangle.
+RT_ALWAYS_INLINE unsigned smooth_lanes_leave(const LaneSolid *own, Doubles x, Doubles y, const Doubles world[3])
+{
+    Doubles corners[3][3], object[3], normal[3];
+#pragma GCC unroll 3
+    for (int corner = 0; corner < 3; corner++) {
+        Vec3 n = own->solid->data[corner];
+        corners[corner][0] = doubles_splat(n.x);
+        corners[corner][1] = doubles_splat(n.y);
+        corners[corner][2] = doubles_splat(n.z);
+    }
+    smooth_lanes(corners, x, y, object);
+    linears_normal(&own->to_object, object, normal);
+    Doubles shrink = 1.0 / doubles_sqrt(lanes_dot(normal, normal));
+    for (int axis = 0; axis < 3; axis++) {
+        normal[axis] = shrink * normal[axis];
+    }
+    return doubles_gt(lanes_dot(normal, world), doubles_splat(0.0));
+}
+
 // flat_root, with disc_has or triangle_has, and which side of it the ray comes from.
 RT_ALWAYS_INLINE bool flat_lanes(const LaneSolid *own, PartKind kind, const Doubles f[3], const Doubles d[3],
                                  const Doubles world[3], unsigned asked, SolidLanes *lanes)
 {
     const Doubles zero = doubles_splat(0.0);
-    double hole = own->solid->data[0].x;
+    const double hole = own->solid->data[0].x;
     Doubles t = -f[2] / d[2], x = f[0] + t * d[0], y = f[1] + t * d[1], square = x * x + y * y;
     DoublesMask has = kind == PART_DISC ? (square <= 1.0) & (square >= hole * hole)
                                         : (x >= 0.0) & (y >= 0.0) & (x + y <= 1.0);
@@ -289,8 +326,12 @@ RT_ALWAYS_INLINE bool flat_lanes(const LaneSolid *own, PartKind kind, const Doub
         return false;
     }
     lanes->certain = ~0u;
-    lanes->leaves =
-        doubles_gt(own->normal.x * world[0] + own->normal.y * world[1] + own->normal.z * world[2], zero);
+    if (kind == PART_SMOOTH_TRIANGLE) {
+        lanes->leaves = smooth_lanes_leave(own, x, y, world);
+    } else {
+        Vec3 n = own->normal;
+        lanes->leaves = doubles_gt(n.x * world[0] + n.y * world[1] + n.z * world[2], zero);
+    }
     lanes->root = t;
     lanes->side = (DoublesMask){0};
     lanes->bound = (own->slack.fixed + own->slack.slope * t) / doubles_abs(d[2]);

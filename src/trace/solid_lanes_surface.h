@@ -94,6 +94,19 @@ RT_ALWAYS_INLINE void boxes_side(const Solid *solids, DoublesMask index, Doubles
     }
 }
 
+// flat_point and smooth_normal of each.
+RT_ALWAYS_INLINE void smooth_triangles_side(const Solid *solids, DoublesMask index, Doubles own[3], Doubles normal[3])
+{
+    Doubles corners[3][3];
+    for (int corner = 0; corner < 3; corner++) {
+        for (int axis = 0; axis < 3; axis++) {
+            corners[corner][axis] = solids_gather(&solids->data[corner].x + axis, index);
+        }
+    }
+    own[2] = doubles_splat(0.0);
+    smooth_lanes(corners, own[0], own[1], normal);
+}
+
 // The point that is put onto the side, and the normal there, of the solids' own class.
 RT_ALWAYS_INLINE void solids_side(const Solid *solids, PartKind kind, DoublesMask index, DoublesMask side,
                                   Doubles own[3], Doubles normal[3])
@@ -108,6 +121,7 @@ RT_ALWAYS_INLINE void solids_side(const Solid *solids, PartKind kind, DoublesMas
         break;
     case PART_BOX: boxes_side(solids, index, side, own, normal); break;
     case PART_CONE: cones_side(solids, index, side, own, normal); break;
+    case PART_SMOOTH_TRIANGLE: smooth_triangles_side(solids, index, own, normal); break;
     default:
         own[2] = normal[0] = normal[1] = doubles_splat(0.0);
         normal[2] = doubles_splat(1.0);

@@ -31,6 +31,7 @@ static const Family kinds[] = {
     {"cones", 0, 300, 0, 0, 0, 0.2, 3.0, false, 1u << PART_CONE},
     {"boxes", 0, 300, 0, 0, 0, 0.2, 3.0, false, 1u << PART_BOX},
     {"discs and triangles", 0, 400, 0, 0, 0, 0.3, 3.0, false, 1u << PART_DISC | 1u << PART_TRIANGLE},
+    {"smooth triangles", 0, 400, 0, 0, 0, 0.3, 3.0, false, 1u << PART_SMOOTH_TRIANGLE},
     {"thin cones far away, and spheres", 0, 300, 50, 0, 0, 2e-3, 0.5, false, 1u << PART_CONE},
     {"cones in one another", 0, 150, 10, 1, 0, 0.3, 2.0, true, 1u << PART_CONE},
     {"boxes in one another", 0, 150, 0, 1, 0, 0.3, 2.0, true, 1u << PART_BOX},
