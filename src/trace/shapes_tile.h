@@ -281,9 +281,10 @@ RT_ALWAYS_INLINE void tile_expect(const ShapesTile *of, bool is_solid, ShapeItem
 {
     const char *from = (const char *)&of->table->solids[item_index(item)];
     if (is_solid) {
-        __builtin_prefetch(from);
-        __builtin_prefetch(from + 64);
-        __builtin_prefetch(from + offsetof(Solid, to_world) - 1);
+#pragma GCC unroll 8
+        for (size_t line = 0; line < sizeof(Solid); line += 64) {
+            __builtin_prefetch(from + line);
+        }
     }
 }
 
