@@ -1,7 +1,8 @@
 // Rays that all end at or about one point against parts that stand alone and composites: part of spheres_kernel.c.
 //
-// They walk the tree together, as in spheres_group.h. Solids whose kind has a test in lanes are tested against a vector of
-// them at a time; what is not decided with a margin, and all other shapes, are asked ray by ray, so the answers are those of single rays.
+// They walk the tree together, as in spheres_group.h. Solids whose kind has a test in lanes are tested against a vector
+// of them at a time; what is not decided with a margin, and all other shapes, are asked ray by ray, so the answers are
+// those of single rays.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_GROUP_H

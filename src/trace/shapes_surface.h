@@ -82,8 +82,8 @@ RT_ALWAYS_INLINE void surfaces_fill(const ShapeTable *table, const double *const
     }
 }
 
-// Fills in point and normal of the surfaces `asked` for whose kind has a test in lanes, and returns those. Rays are from
-// one point, `apart` = 0, or each from its own, `apart` = 1.
+// Fills in point and normal of the surfaces `asked` for whose kind has a test in lanes, and returns those. Rays are
+// from one point, `apart` = 0, or each from its own, `apart` = 1.
 static uint64_t shapes_surfaces(const ShapeTable *table, const double *const origin[3], unsigned apart,
                                 const TileHits *hits, uint64_t asked, TileSurfaces *surfaces)
 {
@@ -99,7 +99,9 @@ static uint64_t shapes_surfaces(const ShapeTable *table, const double *const ori
         case PART_SPHERE: surfaces_fill(table, origin, apart, hits, PART_SPHERE, &of, surfaces); break;
         case PART_BOX: surfaces_fill(table, origin, apart, hits, PART_BOX, &of, surfaces); break;
         case PART_CONE: surfaces_fill(table, origin, apart, hits, PART_CONE, &of, surfaces); break;
-        case PART_SMOOTH_TRIANGLE: surfaces_fill(table, origin, apart, hits, PART_SMOOTH_TRIANGLE, &of, surfaces); break;
+        case PART_SMOOTH_TRIANGLE:
+            surfaces_fill(table, origin, apart, hits, PART_SMOOTH_TRIANGLE, &of, surfaces);
+            break;
         default: surfaces_fill(table, origin, apart, hits, PART_TRIANGLE, &of, surfaces); // a disc, too
         }
         done |= of.own;

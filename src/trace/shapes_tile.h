@@ -3,7 +3,8 @@
 // The tile walks the tree once, as a beam. Solids whose kind has a test in lanes are asked a vector of rays at a time,
 // and what is not decided with a margin is decided ray by ray, so hits are those of single rays. First a ball is asked
 // which rays may meet it: seen from their one origin it is a cone, with a margin far above rounding, so that none is
-// left out; other solids are asked which rows of rays they touch. All other shapes are gathered, and walked by each ray.
+// left out; other solids are asked which rows of rays they touch. All other shapes are gathered, and walked by each
+// ray.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_TILE_H
@@ -158,8 +159,8 @@ RT_ALWAYS_INLINE void tile_take_lanes(ShapesTile *of, const Solid *solid, PartKi
     lane_bits_set(&of->hits->inside, at, nearest, flips ? ~lanes->leaves : lanes->leaves);
 }
 
-// A vector of rays against a solid: what solid_closest does to each. What is nearest, or is not, with a margin is done at
-// once.
+// A vector of rays against a solid: what solid_closest does to each. What is nearest, or is not, with a margin is done
+// at once.
 RT_ALWAYS_INLINE void tile_solid_lanes(ShapesTile *of, const TileSolid *own, PartKind kind, unsigned at, unsigned asked)
 {
     const Solid *solid = own->solid.solid;
@@ -288,7 +289,8 @@ RT_ALWAYS_INLINE void tile_expect(const ShapesTile *of, bool is_solid, ShapeItem
     }
 }
 
-// One walk, near things first: asks the solids that have lanes, and gathers what else there is. False when that is too much.
+// One walk, near things first: asks the solids that have lanes, and gathers what else there is. False when that is too
+// much.
 static bool tile_walk(ShapesTile *of, BvhWalk *walk)
 {
     const ShapeItem *items = of->table->items + of->table->unbounded_count;
@@ -301,7 +303,8 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
         }
         if (child & BVH_LEAF) {
             uint32_t at = bvh_leaf_first(child);
-            tile_solid(of, &of->table->solids[item_index(items[at])], &of->table->boxes[at], bvh_walk_parameter(walk, key));
+            double nearest = bvh_walk_parameter(walk, key);
+            tile_solid(of, &of->table->solids[item_index(items[at])], &of->table->boxes[at], nearest);
             of->limit = !~of->hits->met ? tile_limit(of->first) : of->limit;
             continue;
         }

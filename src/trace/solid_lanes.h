@@ -71,8 +71,9 @@ RT_ALWAYS_INLINE void lanes_sub(const Doubles a[3], const Doubles b[3], Doubles 
 
 // ---- errors
 
-// No crossing of a solid at t is off by more than (fixed + slope t) / |n·d|, for d in its space and the gradient n there:
-// that is solid_crossing_error's bound, made of lengths instead of coordinates, with a tenth more for their rounding.
+// No crossing of a solid at t is off by more than (fixed + slope t) / |n·d|, for d in its space and the gradient n
+// there: that is solid_crossing_error's bound, made of lengths instead of coordinates, with a tenth more for their
+// rounding.
 typedef struct LaneSlack {
     double fixed, slope;
 } LaneSlack;
@@ -268,7 +269,8 @@ RT_ALWAYS_INLINE bool cone_lanes(const LaneSolid *own, const Doubles f[3], const
     interval.leave = doubles_choose(narrows, greater, doubles_choose(widens, far, less));
     interval.enter_along = interval.leave_along = along;
     interval.enter_side = interval.leave_side = (DoublesMask){0} + CONE_ROUND;
-    DoublesMask certain = ((discriminant > 0x1p-20 * whole) | (narrows & (discriminant < 0.0))) & (a != zero) & (sum != zero);
+    DoublesMask is_clear = (discriminant > 0x1p-20 * whole) | (narrows & (discriminant < 0.0));
+    DoublesMask certain = is_clear & (a != zero) & (sum != zero);
     slab_lanes(f[2], d[2], 0.0, 1.0, CONE_BASE, &slab, &certain);
     interval_lanes_meet(&interval, &slab);
     lanes->certain = doubles_mask_bits(certain);

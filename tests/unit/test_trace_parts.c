@@ -1,5 +1,5 @@
-// Rays by the tile among stretched spheres, boxes, cones and other parts: what they meet, the surfaces there and what is before a
-// light are those of single rays, bit for bit, with any instruction set.
+// Rays by the tile among stretched spheres, boxes, cones and other parts: what they meet, the surfaces there and what is
+// before a light are those of single rays, bit for bit, with any instruction set.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
