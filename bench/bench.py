@@ -142,7 +142,7 @@ def of_program(found, name, what, form):
 
 
 def end_to_end(options, names, folder, results):
-    scenes = [("cube", count) for count in options.counts] + [("flake", 7381), ("molecule", 20000), ("nested", 10)]
+    scenes = [("cube", count) for count in options.counts] + [("flake", 7381), ("molecule", 20000), ("sticks", 20000), ("nested", 10)]
     rows = []
     for kind, count in scenes:
         found = results[f"{kind} {count}"] = measure(kind, count, names if count < 10**7 else ["rtlang"], options.turns, folder)

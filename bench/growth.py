@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Growth laws: what N of a kind cost, in time and memory, here and with POV-Ray.
 
-    bench/growth.py [--kind=NAME,…] [--sizes=N,…] [--seconds=S]
+    bench/growth.py [--kind=NAME,…] [--sizes=N,…] [--seconds=S] [--trace=WxH]
 
 For each kind a scene of N parts, N growing by ten until a run takes more than S seconds (10): processor seconds of one thread
 and peak memory of the whole process at 160x120, rtlang's and POV-Ray's of the same file, one after the other; then the
-exponents of both between the two largest sizes that both drew. Wants RTLANG and POV-Ray; takes a quarter of an hour.
+exponents of both between the two largest sizes that both drew. With --trace instead what tracing takes of N parts (1000) of
+each kind that stand alone: processor seconds of a run of that size less those of one of 16x12, the least of several turns,
+and the geometric mean of the ratios. Wants RTLANG and POV-Ray; takes a quarter of an hour.
 SPDX-License-Identifier: MIT
 """
 import math
@@ -228,6 +230,12 @@ KINDS = {
 }
 
 
+ALONE = ["spheres", "spheres, no_shadow", "spheres, no_image", "cylinders", "cones", "boxes", "triangles", "smooth triangles",
+         "discs", "ellipsoids", "unions of two", "differences", "intersections", "merges", "clipped", "inverse spheres",
+         "inverse boxes"]
+TRACE_TURNS = 8
+
+
 def run(command, folder):
     """Processor seconds, megabytes; None where it failed."""
     with subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -247,6 +255,34 @@ def measure(kind, count, folder):
     if shutil.which("povray"):
         theirs = run([*limited, "povray", "+Is.pov", "+Ot.png", "-D", "-A", "+WT1", "-GA", "+W160", "+H120"], folder)
     return ours, theirs
+
+
+def rtlang_of(width, height):
+    return [RTLANG, "-q", "-t1", f"-W{width}", f"-H{height}", "-oo.png", "s.pov"]
+
+
+def povray_of(width, height):
+    return ["povray", "+Is.pov", "+Ot.png", "-D", "-A", "+WT1", "-GA", f"+W{width}", f"+H{height}"]
+
+
+def trace(kinds, count, size, folder):
+    """What tracing takes; the programs take turns."""
+    logs = []
+    print(f"| {count} of each, {size} | rtlang s | POV-Ray s | ratio |\n|---|---|---|---|")
+    for kind in kinds:
+        with open(os.path.join(folder, "s.pov"), "w", encoding="ascii") as file:
+            file.write(HEAD)
+            file.writelines(KINDS[kind](count))
+        least = {}
+        for _ in range(TRACE_TURNS):
+            for form in rtlang_of, povray_of:
+                for width, height in map(int, size.split("x")), (16, 12):
+                    key = form, width == 16
+                    least[key] = min(least.get(key, math.inf), run(form(width, height), folder)[0])
+        ours, theirs = (least[form, False] - least[form, True] for form in (rtlang_of, povray_of))
+        logs.append(math.log(max(ours, 1e-4) / theirs))
+        print(f"| {kind} | {ours:.4f} | {theirs:.3f} | {ours / theirs:.2f} |", flush=True)
+    print(f"| geometric mean | | | {math.exp(sum(logs) / len(logs)):.3f} |")
 
 
 def exponent(points, what):
@@ -279,8 +315,11 @@ def main():
     options = dict(word[2:].split("=", 1) for word in sys.argv[1:])
     kinds = options["kind"].split(",") if "kind" in options else list(KINDS)
     sizes = [int(size) for size in options.get("sizes", "10,100,1000,10000,100000").split(",")]
-    print("| kind | N | time / POV-Ray's | exponent of time | POV-Ray's | of memory | POV-Ray's |\n|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
+        if "trace" in options:
+            trace(kinds if "kind" in options else ALONE, sizes[0] if "sizes" in options else 1000, options["trace"], folder)
+            return
+        print("| kind | N | time / POV-Ray's | exponent of time | POV-Ray's | of memory | POV-Ray's |\n|---|---|---|---|---|---|---|")
         for kind in kinds:
             law(kind, sizes, float(options.get("seconds", "10")), folder)
 

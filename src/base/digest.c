@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/attributes.h"
+
 static const uint64_t iv[8] = {0x6A09E667F3BCC908, 0xBB67AE8584CAA73B, 0x3C6EF372FE94F82B, 0xA54FF53A5F1D36F1,
                                0x510E527FADE682D1, 0x9B05688C2B3E6C1F, 0x1F83D9ABFB41BD6B, 0x5BE0CD19137E2179};
 
@@ -20,14 +22,15 @@ static const uint8_t sigma[10][16] = {
 
 enum { ROUNDS = 12, PARAMETERS = 0x01010000 }; // no key, one sequential tree (section 2.8)
 
-static uint64_t rotated(uint64_t word, unsigned by)
+RT_ALWAYS_INLINE uint64_t rotated(uint64_t word, unsigned by)
 {
     return word >> by | word << (64 - by);
 }
 
-static uint64_t little_endian(const unsigned char *bytes)
+RT_ALWAYS_INLINE uint64_t little_endian(const unsigned char *bytes)
 {
     uint64_t word = 0;
+#pragma GCC unroll 8
     for (unsigned i = 8; i-- > 0;) {
         word = word << 8 | bytes[i];
     }
@@ -35,7 +38,7 @@ static uint64_t little_endian(const unsigned char *bytes)
 }
 
 // Section 3.1.
-static void mix(uint64_t *a, uint64_t *b, uint64_t *c, uint64_t *d, uint64_t x, uint64_t y)
+RT_ALWAYS_INLINE void mix(uint64_t *a, uint64_t *b, uint64_t *c, uint64_t *d, uint64_t x, uint64_t y)
 {
     *a += *b + x;
     *d = rotated(*d ^ *a, 32);
@@ -45,6 +48,19 @@ static void mix(uint64_t *a, uint64_t *b, uint64_t *c, uint64_t *d, uint64_t x, 
     *d = rotated(*d ^ *a, 16);
     *c += *d;
     *b = rotated(*b ^ *c, 63);
+}
+
+// One round, whose number is a constant of the caller: all places are known then, and the words stay in registers.
+RT_ALWAYS_INLINE void mix_all(uint64_t v[16], const uint64_t m[16], const uint8_t s[16])
+{
+    mix(&v[0], &v[4], &v[8], &v[12], m[s[0]], m[s[1]]);
+    mix(&v[1], &v[5], &v[9], &v[13], m[s[2]], m[s[3]]);
+    mix(&v[2], &v[6], &v[10], &v[14], m[s[4]], m[s[5]]);
+    mix(&v[3], &v[7], &v[11], &v[15], m[s[6]], m[s[7]]);
+    mix(&v[0], &v[5], &v[10], &v[15], m[s[8]], m[s[9]]);
+    mix(&v[1], &v[6], &v[11], &v[12], m[s[10]], m[s[11]]);
+    mix(&v[2], &v[7], &v[8], &v[13], m[s[12]], m[s[13]]);
+    mix(&v[3], &v[4], &v[9], &v[14], m[s[14]], m[s[15]]);
 }
 
 // Section 3.2.
@@ -58,15 +74,9 @@ static void compress(Digest *digest, const unsigned char *block, uint64_t size, 
     }
     v[12] ^= digest->total; // 2^64 bytes are never reached
     v[14] = is_last ? ~v[14] : v[14];
+#pragma GCC unroll 12
     for (size_t round = 0; round < ROUNDS; round++) {
-        const uint8_t *s = sigma[round % 10];
-        for (size_t i = 0; i < 4; i++) {
-            mix(&v[i], &v[4 + i], &v[8 + i], &v[12 + i], m[s[2 * i]], m[s[2 * i + 1]]);
-        }
-        for (size_t i = 0; i < 4; i++) {
-            mix(&v[i], &v[4 + (i + 1) % 4], &v[8 + (i + 2) % 4], &v[12 + (i + 3) % 4], m[s[8 + 2 * i]],
-                m[s[9 + 2 * i]]);
-        }
+        mix_all(v, m, sigma[round % 10]);
     }
     for (size_t i = 0; i < 8; i++) {
         digest->state[i] ^= v[i] ^ v[i + 8];

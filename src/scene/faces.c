@@ -307,8 +307,10 @@ static bool collect(Faces *faces)
     for (size_t i = 0; i < scene->parts.count; i++) {
         most += face_count(&scene->parts.items[i]);
     }
-    faces->refs = most >= 2 ? calloc(most, sizeof *faces->refs) : NULL;
+    FacePlane *planes = most >= 2 ? malloc(most * sizeof *planes) : NULL;
+    faces->refs = planes ? calloc(most, sizeof *faces->refs) : NULL;
     if (!faces->refs) {
+        free(planes);
         return most < 2;
     }
     double reach = 0.0;
@@ -316,15 +318,16 @@ static bool collect(Faces *faces)
         uint32_t count = item < scene->planes.count ? 1 : face_count(&scene->parts.items[item - scene->planes.count]);
         for (uint32_t i = 0; i < count; i++) {
             FaceRef ref = {0, (uint32_t)item, i};
-            reach = fmax(reach, plane_at(scene, ref).reach);
+            planes[faces->count] = plane_at(scene, ref);
+            reach = fmax(reach, planes[faces->count].reach);
             faces->refs[faces->count++] = ref;
         }
     }
     faces->unit = reach > 0.0 && isfinite(reach) ? ldexp(1.0, ilogb(reach) - 40) : 1.0;
     for (size_t i = 0; i < faces->count; i++) {
-        FacePlane plane = plane_at(scene, faces->refs[i]);
-        faces->refs[i].key = plane_key(faces, &plane);
+        faces->refs[i].key = plane_key(faces, &planes[i]);
     }
+    free(planes);
     return true;
 }
 

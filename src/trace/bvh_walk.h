@@ -213,6 +213,15 @@ RT_ALWAYS_INLINE uint64_t bvh_walk_key(float distance, BvhChild child)
     return (uint64_t)bits << 32 | child;
 }
 
+// A parameter that is not above that of a key's distance: what ends before it is passed over by the limit of its end.
+RT_ALWAYS_INLINE double bvh_walk_parameter(const BvhWalk *walk, uint64_t key)
+{
+    uint32_t bits = (uint32_t)(key >> 32);
+    float distance;
+    memcpy(&distance, &bits, sizeof(distance));
+    return ((double)distance + walk->skipped) * (1.0 - 0x1p-20) / walk->scale;
+}
+
 // The children that the ray meets before the limit, and where it enters each.
 RT_ALWAYS_INLINE unsigned bvh_walk_boxes(const BvhWalk *walk, const BvhNode *node, float limit, float enters[BVH_WIDTH])
 {

@@ -90,7 +90,7 @@ RT_ALWAYS_INLINE Vec3 cone_normal(double ratio, Vec3 point, uint8_t side)
     if (side != CONE_ROUND) {
         return vec3(0.0, 0.0, side == CONE_CAP ? 1.0 : -1.0);
     }
-    double radius = hypot(point.x, point.y);
+    double radius = sqrt(point.x * point.x + point.y * point.y);
     return radius > 0.0 ? vec3(point.x / radius, point.y / radius, 1.0 - ratio) : vec3(0.0, 0.0, 1.0);
 }
 
@@ -110,7 +110,7 @@ RT_ALWAYS_INLINE Vec3 cone_point(double ratio, Vec3 point, uint8_t side)
     if (side != CONE_ROUND) {
         return vec3(point.x, point.y, side == CONE_CAP ? 1.0 : 0.0);
     }
-    double radius = hypot(point.x, point.y);
+    double radius = sqrt(point.x * point.x + point.y * point.y);
     double factor = radius > 0.0 ? (1.0 + (ratio - 1.0) * point.z) / radius : 1.0;
     return vec3(factor * point.x, factor * point.y, point.z);
 }

@@ -417,13 +417,14 @@ RT_ALWAYS_INLINE uint64_t query_plane_before_surfaces(const PlaneShape *shape, c
     return before;
 }
 
-// The surfaces of `asked` that are on no part.
-RT_ALWAYS_INLINE uint64_t query_not_on_parts(const TileSurfaces *from, uint64_t asked)
+// The surfaces of `asked` that are on no part which equals a sphere.
+RT_ALWAYS_INLINE uint64_t query_without_twins(const Geometry *g, const TileSurfaces *from, uint64_t asked)
 {
     uint64_t others = asked;
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
-        others &= ~((uint64_t)shape_is_on_part(from->shape[i]) << i);
+        bool has_twin = shape_is_on_part(from->shape[i]) && table_solid(&g->shapes, from->shape[i])->twin != SLOT_NONE;
+        others &= ~((uint64_t)has_twin << i);
     }
     return others;
 }
@@ -438,8 +439,8 @@ static __attribute__((noinline, unused)) uint64_t query_parts_occluded(const Geo
     double start_error[TILE_RAYS];
     *left = 0;
     if (g->spheres.count > 0) {
-        // A part may equal a sphere, which is passed over then: ray by ray.
-        uint64_t grouped = query_not_on_parts(from, asked);
+        // Where a part equals a sphere, that is passed over: ray by ray.
+        uint64_t grouped = query_without_twins(g, from, asked);
         occluded = g->kernels->occluded_surfaces(&g->spheres, from, rays, grouped, left);
         *left |= asked & ~grouped;
     }

@@ -63,13 +63,21 @@ typedef struct CsgTree {
 } CsgTree;
 
 // What stands for itself: a solid, or a CSG tree when the number is not below solid_count, or behind those a cluster of
-// such items; of a ball with a bit that tells it, so that nobody need look at it.
+// such items; of a solid that has a test in lanes with a bit that tells it, so that nobody need look at it.
 typedef uint32_t ShapeItem;
-#define ITEM_SPHERE 0x80000000u
+#define ITEM_LANES 0x80000000u
 
 static inline uint32_t item_index(ShapeItem item)
 {
-    return item & ~ITEM_SPHERE;
+    return item & ~ITEM_LANES;
+}
+
+// Whether some rays are tested against a solid of that kind at once (trace/solid_lanes.h).
+static inline bool kind_has_lanes(PartKind kind)
+{
+    const unsigned kinds = 1u << PART_SPHERE | 1u << PART_BOX | 1u << PART_CONE | 1u << PART_DISC | 1u << PART_TRIANGLE |
+                           1u << PART_SMOOTH_TRIANGLE;
+    return kinds >> kind & 1;
 }
 
 // The box of an item as its leaf has it: in the tree's coordinates, rounded outward.

@@ -1,14 +1,15 @@
 // Rays that all end at or about one point against parts that stand alone and composites: part of spheres_kernel.c.
 //
-// They walk the tree together, as in spheres_group.h. A ball is tested against a vector of them at a time; what is not
-// decided with a margin, and all other shapes, are asked ray by ray, so the answers are those of single rays.
+// They walk the tree together, as in spheres_group.h. Solids whose kind has a test in lanes are tested against a vector
+// of them at a time; what is not decided with a margin, and all other shapes, are asked ray by ray, so the answers are
+// those of single rays.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_GROUP_H
 #define TRACE_SHAPES_GROUP_H
 
-#include "trace/ball_lanes.h"
 #include "trace/shapes_walk.h"
+#include "trace/solid_lanes.h"
 #include "trace/spheres_group.h"
 
 enum { GROUP_ITEMS = 8 }; // for each ray
@@ -19,56 +20,80 @@ typedef struct ShapeGroup {
     const Solid *left;
     double far; // of any origin from 0
     double start_error[TILE_RAYS]; // as in ShapeQuery
-    _Alignas(64) double passed[TILE_RAYS]; // of balls, at most: see passed_error; -INFINITY: nothing
+    // Of balls and of straight solids, at most: see passed_error; -INFINITY: nothing.
+    _Alignas(64) double passed_round[TILE_RAYS];
+    double passed_straight[TILE_RAYS];
 } ShapeGroup;
 
-// How much of balls the rays have passed where they start, at most.
+// n·d where some rays start on a solid's side, n being the gradient there.
+RT_ALWAYS_INLINE Doubles start_along(const Solid *left, uint8_t side, const Doubles f[3], const Doubles d[3])
+{
+    int across = solid_classes[left->kind].across[side];
+    if (across > 0) {
+        return d[across - 1];
+    }
+    double slope = left->kind == PART_CONE ? 1.0 - left->data[0].x : 0.0;
+    return left->kind == PART_CONE ? f[0] * d[0] + f[1] * d[1] + slope * doubles_sqrt(f[0] * f[0] + f[1] * f[1]) * d[2]
+                                   : lanes_dot(f, d);
+}
+
+// How much of solids of the family that they start on the rays have passed, at most.
 static void group_set_passed(ShapeGroup *from, const RayGroup *group)
 {
-    bool is_on_ball = from->left && from->left->kind == PART_SPHERE;
-    bool is_round = is_on_ball || (!from->left && shape_kind(from->start.shape) == SHAPE_SPHERE);
+    const Solid *left = from->left;
+    bool has_lanes = left && kind_has_lanes(left->kind);
+    bool is_round = left ? left->family == FAMILY_ROUND : shape_kind(from->start.shape) == SHAPE_SPHERE;
+    bool is_straight = left ? left->family == FAMILY_STRAIGHT : !is_round;
+    LaneSolid own;
     from->far = vec3_length(group->end) + group->farthest;
-    for (unsigned at = 0; at < group->whole; at += DOUBLES) {
-        doubles_store(&from->passed[at], doubles_splat(is_round ? 0.0 : -(double)INFINITY));
+    if (has_lanes) {
+        lane_solid_set(&own, left, from->far);
     }
-    if (is_on_ball) {
-        LaneBall left;
-        lane_ball_set(&left, from->left, from->far);
-        for (unsigned at = 0; at < group->whole; at += DOUBLES) {
+    for (unsigned at = 0; at < group->whole; at += DOUBLES) {
+        Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
+        if (has_lanes) {
             Doubles f[3], d[3];
-            lane_ball_ray(&left, group->origin, group->direction, at, f, d);
-            doubles_store(&from->passed[at], left.slack.fixed / doubles_abs(lanes_dot(f, d)));
+            lane_solid_ray(&own, group->origin, group->direction, at, f, d);
+            passed = own.slack.fixed / doubles_abs(start_along(left, part_side(from->start.shape), f, d));
+        } else if (!left && is_straight) {
+            for (unsigned i = 0; i < DOUBLES; i++) {
+                passed[i] = from->start_error[at + i < group->count ? at + i : group->count - 1];
+            }
         }
+        const Doubles nothing = doubles_splat(-(double)INFINITY);
+        doubles_store(&from->passed_round[at], is_round ? passed : nothing);
+        doubles_store(&from->passed_straight[at], is_straight ? passed : nothing);
     }
 }
 
-// What one vector of rays meets of a ball: what is before a ray's end, or is not, with a margin.
-typedef struct BallMet {
+// What one vector of rays meets of a solid: what is before a ray's end, or is not, with a margin.
+typedef struct LanesMet {
     unsigned met, open;
-} BallMet;
+} LanesMet;
 
-RT_ALWAYS_INLINE BallMet group_ball_lanes(const ShapeGroup *from, const RayGroup *group, const LaneBall *ball,
-                                          const ItemBox *box, unsigned at, unsigned asked)
+RT_ALWAYS_INLINE LanesMet group_solid_lanes(const ShapeGroup *from, const RayGroup *group, const LaneSolid *own,
+                                            PartKind kind, const ItemBox *box, unsigned at, unsigned asked)
 {
-    BallLanes lanes;
-    Doubles f[3], d[3];
-    lane_ball_ray(ball, group->origin, group->direction, at, f, d);
-    if (!ball_lanes_test(f, d, &ball->slack, asked, &lanes)) {
-        return (BallMet){0, 0};
+    SolidLanes lanes;
+    Doubles f[3], d[3], direction[3];
+    lane_solid_ray(own, group->origin, group->direction, at, f, d);
+    lanes_load(group->direction, at, direction);
+    if (!solid_lanes(own, kind, f, d, direction, asked, &lanes)) {
+        return (LanesMet){0, 0};
     }
     // The ends have a margin that is greater than way_end's.
-    Doubles end = doubles_load(&group->distance[at]), passed = doubles_load(&from->passed[at]);
+    Doubles end = doubles_load(&group->distance[at]);
+    Doubles passed = doubles_load(&(kind == PART_SPHERE ? from->passed_round : from->passed_straight)[at]);
     unsigned behind = doubles_gt(lanes.root - lanes.bound, end * (1.0 + 0x1p-40));
     unsigned before = doubles_gt(end * (1.0 - 0x1p-40), lanes.root + lanes.bound);
     unsigned met = lanes.possible & lanes.certain & before & doubles_gt(lanes.root, lanes.bound + passed);
     if (met) {
-        Doubles origin[3], direction[3], enter;
+        Doubles origin[3], enter;
         lanes_load(group->origin, at, origin);
-        lanes_load(group->direction, at, direction);
         met &= box_lanes_enter(&from->table->tree, box, origin, direction, &enter);
         met &= doubles_gt(end * (1.0 - 0x1p-40), enter);
     }
-    return (BallMet){met, lanes.possible & ~met & ~(lanes.certain & behind)};
+    return (LanesMet){met, lanes.possible & ~met & ~(lanes.certain & behind)};
 }
 
 // Whether an item, whose box may be NULL, is before the end of a ray.
@@ -85,26 +110,38 @@ static bool group_ray_meets(const ShapeGroup *from, const RayGroup *group, unsig
     return first.hit.shape != SHAPE_NONE;
 }
 
-// The rays that a ball is in the way of, with those that are `occluded`; sets those that `may` be, to be asked one by
+// The rays that a solid is in the way of, with those that are `occluded`; sets those that `may` be, to be asked one by
 // one.
-static uint64_t group_ball(const ShapeGroup *from, const RayGroup *group, const Solid *solid, const ItemBox *box,
-                           uint64_t occluded, uint64_t *may)
+RT_ALWAYS_INLINE uint64_t group_solid_kind(const ShapeGroup *from, const RayGroup *group, const Solid *solid,
+                                           PartKind kind, const ItemBox *box, uint64_t occluded, uint64_t *may)
 {
-    LaneBall ball;
-    *may = 0;
-    if ((solid->hidden & from->start.use) || (solid == from->left && !solid->flips)) {
-        return occluded;
-    }
-    lane_ball_set(&ball, solid, from->far);
+    LaneSolid own;
+    lane_solid_set(&own, solid, from->far);
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         unsigned asked = ~occluded >> at & ((1u << DOUBLES) - 1);
         if (asked) {
-            BallMet own = group_ball_lanes(from, group, &ball, box, at, asked);
-            occluded |= (uint64_t)own.met << at;
-            *may |= (uint64_t)own.open << at;
+            LanesMet found = group_solid_lanes(from, group, &own, kind, box, at, asked);
+            occluded |= (uint64_t)found.met << at;
+            *may |= (uint64_t)found.open << at;
         }
     }
     return occluded;
+}
+
+static uint64_t group_solid(const ShapeGroup *from, const RayGroup *group, const Solid *solid, const ItemBox *box,
+                            uint64_t occluded, uint64_t *may)
+{
+    *may = 0;
+    if ((solid->hidden & from->start.use) || (solid == from->left && (!solid->flips || solid_is_flat(solid)))) {
+        return occluded;
+    }
+    switch (solid->kind) {
+    case PART_SPHERE: return group_solid_kind(from, group, solid, PART_SPHERE, box, occluded, may);
+    case PART_BOX: return group_solid_kind(from, group, solid, PART_BOX, box, occluded, may);
+    case PART_CONE: return group_solid_kind(from, group, solid, PART_CONE, box, occluded, may);
+    case PART_DISC: return group_solid_kind(from, group, solid, PART_DISC, box, occluded, may);
+    default: return group_solid_kind(from, group, solid, PART_TRIANGLE, box, occluded, may);
+    }
 }
 
 // What is in a leaf; see GroupLeaf.
@@ -117,8 +154,8 @@ static uint64_t group_item(const void *context, const RayGroup *group, const Ray
     ShapeItem item = table->items[table->unbounded_count + at];
     uint64_t may = ~occluded;
     (void)cone;
-    if (item & ITEM_SPHERE) {
-        occluded = group_ball(from, group, &table->solids[item_index(item)], &table->boxes[at], occluded, &may);
+    if (item & ITEM_LANES) {
+        occluded = group_solid(from, group, &table->solids[item_index(item)], &table->boxes[at], occluded, &may);
     }
     for (; may; may &= may - 1) {
         unsigned i = (unsigned)__builtin_ctzll(may);

@@ -472,7 +472,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
 {
     for (uint32_t i = 0; i < table->solid_count; i++) {
         if (table->solids[i].node == NODE_NONE) {
-            add_item(table, work, i | (table->solids[i].kind == PART_SPHERE ? ITEM_SPHERE : 0), &work->solids[i]);
+            add_item(table, work, i | (kind_has_lanes(table->solids[i].kind) ? ITEM_LANES : 0), &work->solids[i]);
         }
     }
     for (uint32_t i = 0; i < table->csg_count; i++) {

@@ -1,4 +1,4 @@
-// Points and normals of the balls that some rays have met, a vector at a time: part of spheres_kernel.c.
+// Points and normals of the solids that some rays have met, a vector at a time: part of spheres_kernel.c.
 //
 // Operations and their order are those of shapes_surface, so the bits are the same.
 //
@@ -6,39 +6,54 @@
 #ifndef TRACE_SHAPES_SURFACE_H
 #define TRACE_SHAPES_SURFACE_H
 
-#include "trace/ball_lanes.h"
+#include "trace/solid_lanes_surface.h"
 
-// The balls among the surfaces asked for, a bit for each, and where each stands in the table; what is no ball has the
-// place of one.
-static uint64_t surfaces_balls(const ShapeTable *table, const TileSurfaces *surfaces, uint64_t asked,
-                               int64_t index[TILE_RAYS])
+// The surfaces of one kind, a bit for each, where the solids stand in the table, and the sides of them.
+typedef struct KindSurfaces {
+    uint64_t own;
+    _Alignas(64) int64_t index[TILE_RAYS], side[TILE_RAYS];
+} KindSurfaces;
+
+// A bit for each kind with a test in lanes that is among the surfaces asked for.
+static unsigned surfaces_kinds(const ShapeTable *table, const TileSurfaces *surfaces, uint64_t asked)
 {
-    uint64_t balls = 0;
-    int64_t last = 0;
+    unsigned kinds = 0;
     for (int i = 0; i < surfaces->count; i++) {
         ShapeId shape = surfaces->shape[i];
-        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PART &&
-            table->solids[part_index(shape)].kind == PART_SPHERE) {
-            balls |= UINT64_C(1) << i;
-            last = part_index(shape);
+        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PART) {
+            kinds |= 1u << table->solids[part_index(shape)].kind;
         }
-        index[i] = last;
     }
-    for (int i = surfaces->count; i % DOUBLES != 0; i++) {
-        index[i] = last;
-    }
-    return balls;
+    return kinds;
 }
 
-// Fills in point and normal of the surfaces `asked` for that are balls, and returns those. Rays are from one point,
-// `apart` = 0, or each from its own, `apart` = 1.
-static uint64_t shapes_surfaces(const ShapeTable *table, const double *const origin[3], unsigned apart,
-                                const TileHits *hits, uint64_t asked, TileSurfaces *surfaces)
+// What is of another kind has the place of one that is not.
+static void surfaces_of_kind(const ShapeTable *table, const TileSurfaces *surfaces, uint64_t asked, PartKind kind,
+                             KindSurfaces *of)
 {
-    _Alignas(64) int64_t index[TILE_RAYS];
-    uint64_t balls = surfaces_balls(table, surfaces, asked, index);
+    int64_t last = 0;
+    of->own = 0;
+    for (int i = 0; i < surfaces->count; i++) {
+        ShapeId shape = surfaces->shape[i];
+        of->side[i] = part_side(shape);
+        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PART && table->solids[part_index(shape)].kind == kind) {
+            of->own |= UINT64_C(1) << i;
+            last = part_index(shape);
+        }
+        of->index[i] = last;
+    }
+    for (int i = surfaces->count; i % DOUBLES != 0; i++) {
+        of->index[i] = last;
+        of->side[i] = 0;
+    }
+}
+
+// Fills in point and normal of those of one kind. Rays as of shapes_surfaces.
+RT_ALWAYS_INLINE void surfaces_fill(const ShapeTable *table, const double *const origin[3], unsigned apart,
+                                    const TileHits *hits, PartKind kind, const KindSurfaces *of, TileSurfaces *surfaces)
+{
     for (int at = 0; at < surfaces->count; at += DOUBLES) {
-        unsigned own = balls >> at & ((1u << DOUBLES) - 1);
+        unsigned own = of->own >> at & ((1u << DOUBLES) - 1);
         Doubles begin[3], direction[3], point[3], normal[3], t;
         if (!own) {
             continue;
@@ -51,20 +66,47 @@ static uint64_t shapes_surfaces(const ShapeTable *table, const double *const ori
             }
         }
         lanes_load(surfaces->direction, (unsigned)at, direction);
-        balls_surface(table->solids, *(const DoublesMask *)&index[at], begin, direction, t, point, normal);
+        solids_surface(table->solids, kind, *(const DoublesMask *)&of->index[at], *(const DoublesMask *)&of->side[at],
+                       begin, direction, t, point, normal);
         for (int axis = 0; axis < 3; axis++) {
             double *points = &surfaces->point[axis][at], *normals = &surfaces->outward[axis][at];
             doubles_store(points, doubles_choose_bits(own, point[axis], doubles_load(points)));
             doubles_store(normals, doubles_choose_bits(own, normal[axis], doubles_load(normals)));
         }
     }
-    for (uint64_t rest = balls; rest; rest &= rest - 1) {
+    for (uint64_t rest = of->own; rest; rest &= rest - 1) {
         int i = __builtin_ctzll(rest);
-        if (table->solids[index[i]].flips) {
+        if (table->solids[of->index[i]].flips) {
             lane_set(surfaces->outward, (unsigned)i, vec3_neg(tile_surface_outward(surfaces, i)));
         }
     }
-    return balls;
+}
+
+// Fills in point and normal of the surfaces `asked` for whose kind has a test in lanes, and returns those. Rays are
+// from one point, `apart` = 0, or each from its own, `apart` = 1.
+static uint64_t shapes_surfaces(const ShapeTable *table, const double *const origin[3], unsigned apart,
+                                const TileHits *hits, uint64_t asked, TileSurfaces *surfaces)
+{
+    uint64_t done = 0;
+    for (unsigned kinds = surfaces_kinds(table, surfaces, asked); kinds; kinds &= kinds - 1) {
+        PartKind kind = (PartKind)__builtin_ctz(kinds);
+        KindSurfaces of; // not cleared
+        if (!kind_has_lanes(kind)) {
+            continue;
+        }
+        surfaces_of_kind(table, surfaces, asked, kind, &of);
+        switch (kind) {
+        case PART_SPHERE: surfaces_fill(table, origin, apart, hits, PART_SPHERE, &of, surfaces); break;
+        case PART_BOX: surfaces_fill(table, origin, apart, hits, PART_BOX, &of, surfaces); break;
+        case PART_CONE: surfaces_fill(table, origin, apart, hits, PART_CONE, &of, surfaces); break;
+        case PART_SMOOTH_TRIANGLE:
+            surfaces_fill(table, origin, apart, hits, PART_SMOOTH_TRIANGLE, &of, surfaces);
+            break;
+        default: surfaces_fill(table, origin, apart, hits, PART_TRIANGLE, &of, surfaces); // a disc, too
+        }
+        done |= of.own;
+    }
+    return done;
 }
 
 #endif

@@ -1,17 +1,19 @@
 // A tile of camera rays against parts that stand alone and composites: part of spheres_kernel.c.
 //
-// The tile walks the tree once, as a beam. A ball is first asked which rays may meet it: seen from their one origin it
-// is a cone, with a margin far above rounding, so that none is left out. Those are tested a vector at a time, and what
-// is not decided with a margin is decided ray by ray, so hits are those of single rays. All other shapes are gathered,
-// and walked by each ray.
+// The tile walks the tree once, as a beam. Solids whose kind has a test in lanes are asked a vector of rays at a time,
+// and what is not decided with a margin is decided ray by ray, so hits are those of single rays. First a ball is asked
+// which rays may meet it: seen from their one origin it is a cone, with a margin far above rounding, so that none is
+// left out; other solids are asked which rows of rays they touch. All other shapes are gathered, and walked by each
+// ray.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_TILE_H
 #define TRACE_SHAPES_TILE_H
 
-#include "trace/ball_lanes.h"
 #include "trace/cone_test.h"
 #include "trace/shapes_walk.h"
+#include "trace/solid_lanes_surface.h"
+#include "trace/tile_planes.h"
 
 enum { SOLID_NONE = UINT32_MAX };
 
@@ -21,13 +23,14 @@ typedef struct ShapesTile {
     const SphereTile *tile;
     TileForemost *first;
     TileHits *hits;          // the same's
-    uint64_t bounded, approximate; // the rays whose first hit is a ball's of whose span only a bound is known; whose
-                                   // root is approximate
+    uint64_t bounded, approximate; // the rays of whose first hit's span only a bound is known; whose root is a ball's
+                                   // and approximate
     double far;              // of the rays' origin from 0
     double limit;            // up to where something may yet be the first of some ray
     _Alignas(64) double enter[TILE_RAYS]; // bounded_enter of a ShapeQuery
     _Alignas(64) int64_t shape[TILE_RAYS]; // of the hits, as wide as their roots
-    ShapeBeam others; // what is no ball
+    TilePlanes planes;
+    ShapeBeam others; // what has no test in lanes
 } ShapesTile;
 
 // A line with the direction d from the origin of a tile meets a ball only if d·Q d >= -margin, for the ball's quadric
@@ -117,44 +120,59 @@ static void tile_ray_put(ShapesTile *of, unsigned i, const ShapeQuery *q, const 
     of->first->beaten[i] = first->beaten;
 }
 
-// Brings the hit of a ray up to date with a ball, in its box, or with all items but such balls.
-static void tile_ray(ShapesTile *of, unsigned i, uint32_t ball, const ItemBox *box, const ShapeBeam *beam)
+// Brings the hit of a ray up to date with a solid, in its box, or with all items that have no test in lanes.
+static void tile_ray(ShapesTile *of, unsigned i, uint32_t index, const ItemBox *box, const ShapeBeam *beam)
 {
     Ray ray;
     ShapeQuery q;
     Foremost first;
     tile_ray_take(of, i, &ray, &q, &first);
-    if (ball != SOLID_NONE) {
+    if (index != SOLID_NONE) {
         q.box = box;
-        ball_closest(&q, ball, &first);
+        solid_closest(&q, index, &first);
     } else {
         table_closest(&q, beam, &first);
     }
     tile_ray_put(of, i, &q, &first);
 }
 
-// A ball as seen from the tile's origin.
-typedef struct TileBall {
-    LaneBall ball;
+// A solid as seen from the tile's origin.
+typedef struct TileSolid {
+    LaneSolid solid;
     const ItemBox *box;
     Doubles f[3]; // the origin in its space
-} TileBall;
+} TileSolid;
 
-// A vector of rays against a ball: what ball_closest does to each. What is nearest, or is not, with a margin is done at
-// once.
-static void tile_ball_lanes(ShapesTile *of, const TileBall *own, unsigned at, unsigned asked)
+// Makes some rays' roots the first ones.
+RT_ALWAYS_INLINE void tile_take_lanes(ShapesTile *of, const Solid *solid, PartKind kind, unsigned at, unsigned nearest,
+                                      const SolidLanes *lanes)
 {
-    const Solid *ball = own->ball.solid;
-    BallLanes lanes;
+    DoublesMask *shape = (DoublesMask *)&of->shape[at];
+    DoublesMask met = ((DoublesMask){0} + part_shape((uint32_t)(solid - of->table->solids), 0)) | lanes->side;
+    bool flips = solid->flips && !solid_is_flat(solid);
+    doubles_store(&of->hits->t[at], doubles_choose_bits(nearest, lanes->root, doubles_load(&of->hits->t[at])));
+    *shape = (DoublesMask)doubles_choose_bits(nearest, (Doubles)met, (Doubles)*shape);
+    lane_bits_set(&of->hits->met, at, nearest, ~0u);
+    lane_bits_set(&of->bounded, at, nearest, ~0u);
+    lane_bits_set(&of->approximate, at, nearest, kind == PART_SPHERE ? ~0u : 0);
+    lane_bits_set(&of->first->torn, at, nearest, 0);
+    lane_bits_set(&of->hits->inside, at, nearest, flips ? ~lanes->leaves : lanes->leaves);
+}
+
+// A vector of rays against a solid: what solid_closest does to each. What is nearest, or is not, with a margin is done
+// at once.
+RT_ALWAYS_INLINE void tile_solid_lanes(ShapesTile *of, const TileSolid *own, PartKind kind, unsigned at, unsigned asked)
+{
+    const Solid *solid = own->solid.solid;
+    SolidLanes lanes;
     Doubles direction[3], d[3];
-    uint32_t index = (uint32_t)(ball - of->table->solids);
     lanes_load(of->tile->direction, at, direction);
-    linears_direction(&own->ball.to_object, direction, d);
-    if (!ball_lanes_test(own->f, d, &own->ball.slack, asked, &lanes)) {
+    linears_direction(&own->solid.to_object, direction, d);
+    if (!solid_lanes(&own->solid, kind, own->f, d, direction, asked, &lanes)) {
         return;
     }
     TileForemost *all = of->first;
-    Doubles before = doubles_load(&of->hits->t[at]), from = doubles_load(&all->from[at]);
+    Doubles from = doubles_load(&all->from[at]);
     Doubles limit = doubles_load(&all->limit[at]), beaten = doubles_load(&all->beaten[at]);
     unsigned other = lanes.possible & ~(lanes.certain & doubles_gt(lanes.root - lanes.bound, limit)), nearest = 0;
     if (other & lanes.certain) {
@@ -170,40 +188,62 @@ static void tile_ball_lanes(ShapesTile *of, const TileBall *own, unsigned at, un
         doubles_store(&of->enter[at], doubles_choose_bits(nearest, enter, doubles_load(&of->enter[at])));
     }
     if (nearest) {
-        DoublesMask *shape = (DoublesMask *)&of->shape[at];
-        doubles_store(&of->hits->t[at], doubles_choose_bits(nearest, lanes.root, before));
-        *shape = (DoublesMask)doubles_choose_bits(nearest, (Doubles)((DoublesMask){0} + part_shape(index, 0)),
-                                                  (Doubles)*shape);
-        lane_bits_set(&of->hits->met, at, nearest, ~0u);
-        lane_bits_set(&of->bounded, at, nearest, ~0u);
-        lane_bits_set(&of->approximate, at, nearest, ~0u);
-        lane_bits_set(&all->torn, at, nearest, 0);
-        lane_bits_set(&of->hits->inside, at, nearest, ball->flips ? ~lanes.inside : lanes.inside);
+        tile_take_lanes(of, solid, kind, at, nearest, &lanes);
     }
     for (other &= ~nearest; RT_UNLIKELY(other); other &= other - 1) {
-        tile_ray(of, at + (unsigned)__builtin_ctz(other), index, own->box, NULL);
+        tile_ray(of, at + (unsigned)__builtin_ctz(other), (uint32_t)(solid - of->table->solids), own->box, NULL);
     }
 }
 
-static void tile_ball(ShapesTile *of, const Solid *ball, const ItemBox *box)
+// The rays for which something may yet be the first that is no nearer than that.
+static uint64_t tile_open_rays(const TileForemost *first, double nearest)
 {
-    BallView view;
-    if (ball->hidden & HIDDEN_CAMERA) {
-        return;
+    uint64_t open = 0;
+    for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
+        open |= (uint64_t)doubles_ge(doubles_load(&first->limit[i]), doubles_splat(nearest)) << i;
     }
-    Vec3 f = linear_direction(&ball->to_object, vec3_sub(of->tile->origin, ball->centre));
-    ball_view(ball, f, &view);
-    uint64_t may = ball_view_rays(&view, of->tile);
+    return open;
+}
+
+// `may` are the rays that are asked.
+RT_ALWAYS_INLINE void tile_solid_kind(ShapesTile *of, const Solid *solid, PartKind kind, const ItemBox *box,
+                                      uint64_t may)
+{
+    Vec3 offset = vec3_sub(of->tile->origin, solid->centre), f = linear_direction(&solid->to_object, offset);
+    if (kind == PART_SPHERE) {
+        BallView view;
+        ball_view(solid, f, &view);
+        may &= ball_view_rays(&view, of->tile);
+    } else {
+        may &= rows_rays(solid_rows(&of->planes, of->tile, solid, kind, vec3_neg(offset)));
+    }
     if (!may) {
         return;
     }
-    TileBall own = {.box = box, .f = {doubles_splat(f.x), doubles_splat(f.y), doubles_splat(f.z)}};
-    lane_ball_set(&own.ball, ball, of->far);
+    TileSolid own = {.box = box, .f = {doubles_splat(f.x), doubles_splat(f.y), doubles_splat(f.z)}};
+    lane_solid_set(&own.solid, solid, of->far);
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
         unsigned asked = may >> at & ((1u << DOUBLES) - 1);
         if (asked) {
-            tile_ball_lanes(of, &own, at, asked);
+            tile_solid_lanes(of, &own, kind, at, asked);
         }
+    }
+}
+
+// No ray meets the box before `nearest`.
+static void tile_solid(ShapesTile *of, const Solid *solid, const ItemBox *box, double nearest)
+{
+    uint64_t may = tile_open_rays(of->first, nearest);
+    if ((solid->hidden & HIDDEN_CAMERA) || !may) {
+        return;
+    }
+    switch (solid->kind) {
+    case PART_SPHERE: tile_solid_kind(of, solid, PART_SPHERE, box, may); break;
+    case PART_BOX: tile_solid_kind(of, solid, PART_BOX, box, may); break;
+    case PART_CONE: tile_solid_kind(of, solid, PART_CONE, box, may); break;
+    case PART_DISC: tile_solid_kind(of, solid, PART_DISC, box, may); break;
+    case PART_TRIANGLE: tile_solid_kind(of, solid, PART_TRIANGLE, box, may); break;
+    default: tile_solid_kind(of, solid, PART_SMOOTH_TRIANGLE, box, may);
     }
 }
 
@@ -237,18 +277,20 @@ static bool beam_add(ShapeBeam *beam, const BvhNode *from, unsigned child)
     return true;
 }
 
-// Fetches a ball, which has to wait, into the cache.
-RT_ALWAYS_INLINE void tile_expect(const ShapesTile *of, bool is_ball, ShapeItem item)
+// Fetches a solid, which has to wait, into the cache.
+RT_ALWAYS_INLINE void tile_expect(const ShapesTile *of, bool is_solid, ShapeItem item)
 {
     const char *from = (const char *)&of->table->solids[item_index(item)];
-    if (is_ball) {
-        __builtin_prefetch(from);
-        __builtin_prefetch(from + 64);
-        __builtin_prefetch(from + offsetof(Solid, to_world) - 1);
+    if (is_solid) {
+#pragma GCC unroll 8
+        for (size_t line = 0; line < sizeof(Solid); line += 64) {
+            __builtin_prefetch(from + line);
+        }
     }
 }
 
-// One walk, near things first: asks the balls, and gathers what else there is. False when that is too much.
+// One walk, near things first: asks the solids that have lanes, and gathers what else there is. False when that is too
+// much.
 static bool tile_walk(ShapesTile *of, BvhWalk *walk)
 {
     const ShapeItem *items = of->table->items + of->table->unbounded_count;
@@ -261,7 +303,8 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
         }
         if (child & BVH_LEAF) {
             uint32_t at = bvh_leaf_first(child);
-            tile_ball(of, &of->table->solids[item_index(items[at])], &of->table->boxes[at]);
+            double nearest = bvh_walk_parameter(walk, key);
+            tile_solid(of, &of->table->solids[item_index(items[at])], &of->table->boxes[at], nearest);
             of->limit = !~of->hits->met ? tile_limit(of->first) : of->limit;
             continue;
         }
@@ -272,7 +315,7 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
             unsigned i = (unsigned)__builtin_ctz(met);
             bool is_leaf = node->child[i] & BVH_LEAF;
             ShapeItem item = is_leaf ? items[bvh_leaf_first(node->child[i])] : 0;
-            if (!is_leaf || (item & ITEM_SPHERE)) {
+            if (!is_leaf || (item & ITEM_LANES)) {
                 tile_expect(of, is_leaf, item);
                 bvh_walk_push(walk, bottom, bvh_walk_key(enters[i], node->child[i]));
             } else if (!beam_add(&of->others, node, i)) {
@@ -341,6 +384,7 @@ static void shapes_closest_tile(const ShapeTable *table, const SphereTile *tile,
     of.first = first;
     of.hits = first->hits;
     of.bounded = of.approximate = 0;
+    of.planes.has_planes = of.planes.has_rows = false;
     of.far = vec3_length(tile->origin);
     of.limit = ~of.hits->met ? (double)INFINITY : tile_limit(first);
     for (unsigned i = 0; i < TILE_RAYS; i++) {

@@ -23,7 +23,7 @@ typedef struct ShapeQuery {
     double start_error; // less than 0: not asked for yet
     const Solid *left; // that it starts on; NULL for none
     bool is_any;       // whatever is met before the end of the way will do
-    const Solid *bounded; // the ball that is the first, where its hit's span is only bounded; NULL: no such
+    const Solid *bounded; // the solid that is the first, where its hit's span is only bounded; NULL: no such
     double bounded_enter; // where the ray enters its box
     uint32_t at;          // of the item that was asked last among all
     const ItemBox *box;   // of the item that is asked; NULL: it has none
@@ -126,12 +126,26 @@ static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Forem
     }
 }
 
-// The span of a first hit of which only a bound is known.
+// The error of a first hit of which only a bound is known. What is not a ball the ray does not start on.
+static double bounded_error(const ShapeQuery *q, const Ray *object, const Hit *hit)
+{
+    const Solid *solid = q->bounded;
+    RayInterval interval;
+    if (solid->kind == PART_SPHERE) {
+        return solid_ball_error(solid, q->ray, object, hit->t);
+    }
+    if (solid_is_flat(solid)) {
+        return solid_crossing_error(solid, q->ray, object, hit->t, 0);
+    }
+    (void)solid_intervals(solid, object, LEFT_NONE, &interval);
+    return solid_end_error(solid, q->ray, object, hit->t, part_side(hit->shape), interval.leave - interval.enter);
+}
+
 static void span_refine(ShapeQuery *q, Foremost *first)
 {
     if (q->bounded) {
         Ray object = solid_ray(q->bounded, q->ray);
-        double error = solid_ball_error(q->bounded, q->ray, &object, first->hit.t);
+        double error = bounded_error(q, &object, &first->hit);
         RootSpan span = crossing_span(first->hit.t, error, q->bounded_enter);
         first->from = span.from;
         first->limit = span.to;

@@ -202,8 +202,8 @@ typedef struct SphereKernels {
     // What does not pay, or cannot be done, for some together is `left`.
     uint64_t (*shapes_occluded_surfaces)(const ShapeTable *shapes, const TileSurfaces *from, const SurfaceRays *rays,
                                          const double start_error[TILE_RAYS], uint64_t asked, uint64_t *left);
-    // Fills in point and normal of the surfaces `asked` for that are balls, as shapes_surface has them, and returns
-    // those; `surfaces` of the spheres comes first. Rays are from one point, `apart` = 0, or each from its own, 1.
+    // Fills in point and normal of the surfaces `asked` for whose kind has a test in lanes, as shapes_surface has them, and
+    // returns those; `surfaces` of the spheres comes first. Rays are from one point, `apart` = 0, or each from its own, 1.
     uint64_t (*shapes_surfaces)(const ShapeTable *shapes, const double *const origin[3], unsigned apart,
                                 const TileHits *hits, uint64_t asked, TileSurfaces *surfaces);
 } SphereKernels;

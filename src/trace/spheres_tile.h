@@ -15,14 +15,7 @@
 #include "trace/simd.h"
 #include "trace/spheres.h"
 #include "trace/spheres_refine.h"
-
-enum { ROWS = TILE_RAYS / TILE_ROW };
-
-// A plane through the origin of rays, and how far their directions, of unit length, are from it at most.
-typedef struct RayPlane {
-    Vec3 normal;
-    double spread;
-} RayPlane;
+#include "trace/tile_planes.h"
 
 // A tile on its way: its rays, planes through them, and what they have met so far.
 typedef struct TileBeam {
@@ -31,11 +24,8 @@ typedef struct TileBeam {
     TileHits *hits;
     uint64_t approximate; // the rays whose roots are to be refined yet
     double limit;   // up to where a root may yet be the nearest of some ray
-    bool has_planes, has_rows; // whether the planes are known: many tiles come to no leaf, or meet nothing there
-    bool has_news;             // hits came nearer
-    RayPlane along, across;    // the rows; the columns
-    _Alignas(64) double row_normal[3][ROWS];
-    _Alignas(64) double row_spread[ROWS];
+    bool has_news;  // hits came nearer
+    TilePlanes planes;
     _Alignas(64) double row_limit[ROWS]; // as `limit`, of each row
     _Alignas(64) int64_t shape[TILE_RAYS]; // of the hits, as wide as their roots
 } TileBeam;
@@ -99,50 +89,6 @@ static bool view_passes(const SphereTable *table, const TileView *view, const do
     return is_usable && cone_spheres(&cone, &table->blocks[0]) == 0;
 }
 
-// Some of a tile's rays and the plane of a normal.
-static RayPlane ray_plane(const SphereTile *tile, Vec3 normal, unsigned begin, unsigned end)
-{
-    Doubles greatest = doubles_splat(0.0);
-    for (unsigned i = begin; i < end; i += DOUBLES) {
-        Doubles aside = doubles_load(&tile->direction[0][i]) * normal.x +
-                        doubles_load(&tile->direction[1][i]) * normal.y +
-                        doubles_load(&tile->direction[2][i]) * normal.z;
-        greatest = doubles_max(doubles_abs(aside), greatest);
-    }
-    return (RayPlane){normal, doubles_greatest(greatest) + CONE_MARGIN};
-}
-
-// That of two rays, NaN where they are one.
-static Vec3 tile_normal(const SphereTile *tile, unsigned a, unsigned b)
-{
-    return vec3_normalize(vec3_cross(lane_get(tile->direction, a), lane_get(tile->direction, b)));
-}
-
-static void beam_set_planes(TileBeam *beam)
-{
-    enum { MIDDLE = TILE_RAYS / 2 };
-    const SphereTile *tile = beam->tile;
-    Vec3 normal = tile_normal(tile, MIDDLE, MIDDLE + TILE_ROW - 1);
-    Vec3 axis = vec3_add(lane_get(tile->direction, MIDDLE - TILE_ROW / 2 - 1),
-                         lane_get(tile->direction, MIDDLE + TILE_ROW / 2));
-    beam->along = ray_plane(tile, normal, 0, TILE_RAYS);
-    beam->across = ray_plane(tile, vec3_normalize(vec3_cross(normal, axis)), 0, TILE_RAYS);
-    beam->has_planes = true;
-}
-
-static void beam_set_rows(TileBeam *beam)
-{
-    for (unsigned row = 0; row < ROWS; row++) {
-        unsigned begin = row * TILE_ROW, end = begin + TILE_ROW;
-        RayPlane plane = ray_plane(beam->tile, tile_normal(beam->tile, begin, end - 1), begin, end);
-        beam->row_spread[row] = plane.spread;
-        beam->row_normal[0][row] = plane.normal.x;
-        beam->row_normal[1][row] = plane.normal.y;
-        beam->row_normal[2][row] = plane.normal.z;
-    }
-    beam->has_rows = true;
-}
-
 // Bit i is set where spheres at f from the origin do not touch a plane: where the middle of a ray's way through a sphere
 // is no farther from the origin than |f|, f is no farther from the plane than |f| spread + radius.
 RT_ALWAYS_INLINE unsigned planes_apart(const Doubles f[3], const Doubles normal[3], Doubles reach)
@@ -163,7 +109,7 @@ RT_ALWAYS_INLINE unsigned block_view(const TileBeam *beam, const SphereBlock *bl
 {
     enum { PARTS = SPHERE_BLOCK / DOUBLES };
     unsigned touched = 0;
-    Vec3 origin = beam->tile->origin, n = beam->along.normal, m = beam->across.normal;
+    Vec3 origin = beam->tile->origin, n = beam->planes.along.normal, m = beam->planes.across.normal;
     const Doubles along[3] = {doubles_splat(n.x), doubles_splat(n.y), doubles_splat(n.z)};
     const Doubles across[3] = {doubles_splat(m.x), doubles_splat(m.y), doubles_splat(m.z)};
     Doubles f[PARTS][3], f_squared[PARTS], distance[PARTS], radius[PARTS], nearest[PARTS];
@@ -178,8 +124,8 @@ RT_ALWAYS_INLINE unsigned block_view(const TileBeam *beam, const SphereBlock *bl
         distance[i] = doubles_sqrt(f_squared[i]);
         radius[i] = doubles_sqrt(radius_squared);
         nearest[i] = doubles_min(distance[i] * (1.0 - 2.0 * CONE_MARGIN) - radius[i], doubles_splat(DBL_MAX));
-        unsigned apart = planes_apart(f[i], along, distance[i] * beam->along.spread + radius[i]) |
-                         planes_apart(f[i], across, distance[i] * beam->across.spread + radius[i]) |
+        unsigned apart = planes_apart(f[i], along, distance[i] * beam->planes.along.spread + radius[i]) |
+                         planes_apart(f[i], across, distance[i] * beam->planes.across.spread + radius[i]) |
                          doubles_ge(nearest[i], doubles_splat(beam->limit));
         touched |= (doubles_ge(radius_squared, doubles_splat(0.0)) & ~apart) << at;
     }
@@ -221,13 +167,13 @@ static unsigned beam_rows(TileBeam *beam, const TileSphere *sphere)
 {
     const Doubles f[3] = {doubles_splat(sphere->f.x), doubles_splat(sphere->f.y), doubles_splat(sphere->f.z)};
     unsigned apart = 0;
-    if (!beam->has_rows) {
-        beam_set_rows(beam);
+    if (!beam->planes.has_rows) {
+        tile_set_rows(&beam->planes, beam->tile);
     }
     for (int i = 0; i < ROWS; i += DOUBLES) {
-        const Doubles normal[3] = {doubles_load(&beam->row_normal[0][i]), doubles_load(&beam->row_normal[1][i]),
-                                   doubles_load(&beam->row_normal[2][i])};
-        Doubles reach = sphere->distance * doubles_load(&beam->row_spread[i]) + sphere->radius;
+        const Doubles normal[3] = {doubles_load(&beam->planes.row_normal[0][i]), doubles_load(&beam->planes.row_normal[1][i]),
+                                   doubles_load(&beam->planes.row_normal[2][i])};
+        Doubles reach = sphere->distance * doubles_load(&beam->planes.row_spread[i]) + sphere->radius;
         apart |= (planes_apart(f, normal, reach) | doubles_ge(doubles_splat(sphere->nearest), doubles_load(&beam->row_limit[i])))
                  << i;
     }
@@ -370,8 +316,8 @@ static double beam_limit(const TileBeam *beam)
 static bool beam_block(TileBeam *beam, uint32_t block)
 {
     BlockView view;
-    if (!beam->has_planes) {
-        beam_set_planes(beam);
+    if (!beam->planes.has_planes) {
+        tile_set_planes(&beam->planes, beam->tile);
     }
     beam->has_news = false;
     unsigned touched = block_view(beam, &beam->table->blocks[block], &view);
@@ -463,7 +409,7 @@ static bool tile_closest(const SphereTable *table, const SphereTile *tile, TileH
     beam.hits = hits;
     beam.approximate = 0;
     beam.limit = (double)INFINITY;
-    beam.has_planes = beam.has_rows = beam.has_news = false;
+    beam.planes.has_planes = beam.planes.has_rows = beam.has_news = false;
     for (unsigned i = 0; i < TILE_RAYS; i++) {
         hits->t[i] = (double)INFINITY;
         beam.shape[i] = SHAPE_NONE;

@@ -1,5 +1,5 @@
-// Rays by the tile among stretched spheres and other parts: what they meet, the surfaces there and what is before a
-// light are those of single rays, bit for bit, with any instruction set.
+// Rays by the tile among stretched spheres, boxes, cones and other parts: what they meet, the surfaces there and what is
+// before a light are those of single rays, bit for bit, with any instruction set.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -14,17 +14,29 @@ typedef struct Family {
     int balls, others, spheres, planes, composites;
     double size, spread; // of a part; of where they are
     bool is_tied;        // some are equal, or nearly, or lie in one another
+    unsigned kinds;      // of the others, a bit for each PartKind; 0: all of `simple`
 } Family;
 
+static const PartKind simple[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE, PART_SMOOTH_TRIANGLE};
+
 static const Family kinds[] = {
-    {"a few balls", 6, 0, 0, 0, 0, 1.0, 2.0, false},
-    {"balls", 400, 0, 0, 0, 0, 0.2, 3.0, false},
-    {"thin balls far away", 300, 0, 0, 0, 0, 2e-3, 0.5, false},
-    {"balls and a plane", 200, 0, 0, 1, 0, 0.2, 3.0, false},
-    {"balls and spheres", 150, 0, 150, 0, 0, 0.2, 3.0, false},
-    {"balls and other shapes", 150, 150, 0, 0, 20, 0.2, 3.0, false},
-    {"all kinds", 150, 80, 100, 2, 10, 0.2, 3.0, false},
-    {"balls in one another", 150, 0, 10, 0, 0, 0.3, 2.0, true},
+    {"a few balls", 6, 0, 0, 0, 0, 1.0, 2.0, false, 0},
+    {"balls", 400, 0, 0, 0, 0, 0.2, 3.0, false, 0},
+    {"thin balls far away", 300, 0, 0, 0, 0, 2e-3, 0.5, false, 0},
+    {"balls and a plane", 200, 0, 0, 1, 0, 0.2, 3.0, false, 0},
+    {"balls and spheres", 150, 0, 150, 0, 0, 0.2, 3.0, false, 0},
+    {"balls and other shapes", 150, 150, 0, 0, 20, 0.2, 3.0, false, 0},
+    {"all kinds", 150, 80, 100, 2, 10, 0.2, 3.0, false, 0},
+    {"balls in one another", 150, 0, 10, 0, 0, 0.3, 2.0, true, 0},
+    {"cones", 0, 300, 0, 0, 0, 0.2, 3.0, false, 1u << PART_CONE},
+    {"boxes", 0, 300, 0, 0, 0, 0.2, 3.0, false, 1u << PART_BOX},
+    {"discs and triangles", 0, 400, 0, 0, 0, 0.3, 3.0, false, 1u << PART_DISC | 1u << PART_TRIANGLE},
+    {"smooth triangles", 0, 400, 0, 0, 0, 0.3, 3.0, false, 1u << PART_SMOOTH_TRIANGLE},
+    {"thin cones far away, and spheres", 0, 300, 50, 0, 0, 2e-3, 0.5, false, 1u << PART_CONE},
+    {"cones in one another", 0, 150, 10, 1, 0, 0.3, 2.0, true, 1u << PART_CONE},
+    {"boxes in one another", 0, 150, 0, 1, 0, 0.3, 2.0, true, 1u << PART_BOX},
+    {"flat ones in one another", 0, 200, 0, 1, 0, 0.5, 2.0, true, 1u << PART_DISC | 1u << PART_TRIANGLE},
+    {"all in one another", 50, 150, 10, 1, 5, 0.3, 2.0, true, 0},
 };
 
 static Part part_at(Random *random, PartKind kind, double size, Vec3 at)
@@ -53,15 +65,24 @@ static void add_composite(Scene *scene, Random *random, const Family *family)
     scene_end_composite(scene);
 }
 
-// Another ball: anywhere, or, in a family of ties, where the last one is or next to that.
-static Part random_ball(Random *random, const Family *family, const Part *last)
+// Another solid: anywhere, or, in a family of ties, where the last one is or next to that.
+static Part random_solid(Random *random, const Family *family, PartKind kind, const Part *last)
 {
     double size = family->size * exp(random_between(random, -1, 0.5));
-    Part part = part_at(random, PART_SPHERE, size, random_point(random, family->spread));
+    Part part = part_at(random, kind, size, random_point(random, family->spread));
     uint64_t bits = random_bits(random);
+    bool has_inside = kind == PART_SPHERE || kind == PART_BOX || kind == PART_CONE;
+    if (kind == PART_SMOOTH_TRIANGLE) {
+        for (int i = 0; i < 3; i++) {
+            part.data[i] = random_direction(random);
+        }
+    }
     if (family->is_tied && last && bits % 2) {
         double apart = bits >> 4 & 1 ? 0x1p-30 : 0x1p-52;
         part.to_world = last->to_world;
+        if (part.kind == last->kind) {
+            memcpy(part.data, last->data, sizeof part.data);
+        }
         for (int row = 0; bits % 4 == 1 && row < 3; row++) {
             for (int column = 0; column < 3; column++) {
                 part.to_world.m[row][column] *= 1.0 + apart * (double)(bits >> 8 & 7);
@@ -70,11 +91,22 @@ static Part random_ball(Random *random, const Family *family, const Part *last)
     }
     part.hidden = bits >> 16 & 15 ? 0 : bits >> 20 & 7;
     part.hidden = part.hidden == 7 ? 0 : part.hidden;
-    part.flags = bits >> 24 & 511 ? 0 : PART_INVERSE;
+    part.flags = bits >> 24 & 511 || !has_inside ? 0 : PART_INVERSE;
+    part.flags |= kind == PART_CONE && !(bits >> 36 & 7) ? PART_OPEN : 0;
     if (!transform_invert(&part.to_world, &part.to_object)) {
         abort();
     }
     return part;
+}
+
+static PartKind random_kind(Random *random, const Family *family)
+{
+    for (;;) {
+        PartKind kind = simple[random_bits(random) % RT_COUNT_OF(simple)];
+        if (!family->kinds || family->kinds >> kind & 1) {
+            return kind;
+        }
+    }
 }
 
 static void draw_scene(Random *random, const Family *family, Scene *scene)
@@ -89,15 +121,10 @@ static void draw_scene(Random *random, const Family *family, Scene *scene)
         Vec3 normal = random_direction(random);
         add_plane(scene, normal, random_between(random, -1, 1) * family->spread);
     }
-    for (int i = 0; i < family->balls; i++) {
-        last = random_ball(random, family, i ? &last : NULL);
+    for (int i = 0; i < family->balls + family->others; i++) {
+        PartKind kind = i < family->balls ? PART_SPHERE : random_kind(random, family);
+        last = random_solid(random, family, kind, i ? &last : NULL);
         add_part(scene, &last);
-    }
-    for (int i = 0; i < family->others; i++) {
-        static const PartKind others[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE};
-        PartKind kind = others[random_bits(random) % 4];
-        Part part = part_at(random, kind, family->size, random_point(random, family->spread));
-        add_part(scene, &part);
     }
     for (int i = 0; i < family->composites; i++) {
         add_composite(scene, random, family);
@@ -153,7 +180,10 @@ static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces
     for (int i = 0; i < TILE_RAYS; i++) {
         start_error[i] = -1.0;
     }
-    uint64_t on_parts = asked & ~query_not_on_parts(from, asked);
+    uint64_t on_parts = 0;
+    for (int i = 0; i < from->count; i++) {
+        on_parts |= asked & (uint64_t)shape_is_on_part(from->shape[i]) << i;
+    }
     g->kernels->shapes_occluded_surfaces(&g->shapes, from, &rays, start_error, on_parts, &left);
     found->together += __builtin_popcountll(on_parts & ~left);
     found->shadows += (occluded & ~asked) != 0;
