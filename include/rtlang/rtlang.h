@@ -547,6 +547,9 @@ RT_API rt_status rt_read_command(rt_session *session, const char *path, const ch
 /* Ranks of MPI, which share the tiles of each picture that is rendered from here on: each of them loads the same scene and
  * makes the same calls, and rank 0 has the picture. Loads the module for MPI, which begins it once a process. */
 RT_API rt_status rt_join_ranks(rt_session *session, int *rank, int *ranks);
+/* Each rank keeps a part of the spheres of the scenes that are loaded from here on, and asks the others for what its rays
+ * meet: for scenes that are larger than a machine. RT_FAULT_USAGE without ranks, or once a scene is loaded. */
+RT_API rt_status rt_share_scene(rt_session *session);
 /* After the scene is loaded, or could not be, with `status`; called by all ranks. RT_OK where each is ready to render the
  * same picture; else what the worst has, and rank 0 reports the first rank that is not, *first. */
 RT_API rt_status rt_agree_with_ranks(rt_session *session, rt_status status, int *first);

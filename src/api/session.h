@@ -75,6 +75,9 @@ typedef struct SessionSharing {
     Alone alone;
     bool has_ranks;
     Ranks ranks;
+    bool has_scene; // each rank has a part of it: see scene_share.c
+    bool has_clear; // of which, together, something lets light through
+    TileAsking asking;
 } SessionSharing;
 
 struct rt_session {
@@ -242,6 +245,14 @@ static inline bool session_is_sampled(const rt_session *session)
     SamplingOptions sampling = session_sampling(session);
     return sampling_is_wanted(&sampling);
 }
+
+// Of a scene of which each rank has a part: what refuses it and what all ranks must know of it. Called by all ranks once
+// it is loaded; false: reported.
+bool session_scene_agree(rt_session *session);
+// The scene put near the origin as scene_recentre does, by all its spheres; called by all ranks.
+Vec3 session_scene_recentre(rt_session *session);
+// What rays ask of a prepared scene.
+void session_scene_ask(rt_session *session, const Prepared *prepared);
 
 // About how many rays go through the pixels of the next picture.
 double session_camera_rays(const rt_session *session);

@@ -85,7 +85,7 @@ rt_status rt_worst_of_ranks(rt_session *session, rt_status status)
         ranks->module->stop(RT_FAULT_LIMIT);
         return RT_FAULT_LIMIT;
     }
-    ranks->module->gather(&own, all);
+    ranks->module->gather(&own, all, sizeof own);
     for (int i = 0; i < ranks->ranks; i++) {
         worst = all[i] > worst ? all[i] : worst;
     }
@@ -432,7 +432,11 @@ rt_status rt_agree_with_ranks(rt_session *session, rt_status status, int *first)
         report_rank(session, rank, differs, &sharing->store.head);
         status = session_status(session, false);
     }
-    return rt_worst_of_ranks(session, status);
+    status = rt_worst_of_ranks(session, status);
+    if (!status && sharing->has_scene) {
+        status = rt_worst_of_ranks(session, session_status(session, session_scene_agree(session)));
+    }
+    return status;
 }
 
 rt_status session_sharing_begin(rt_session *session)

@@ -546,6 +546,9 @@ rt_status run(rt_session *session, Options *options, Voice *voice)
     };
     int rank, ranks;
     rt_status status = share_has_ranks(options) ? rt_join_ranks(session, &rank, &ranks) : RT_OK;
+    if (!status && options->shares_scene) {
+        status = rt_share_scene(session);
+    }
     if (share_has_ranks(options)) {
         voice_hold(voice); // until the ranks agree
     }

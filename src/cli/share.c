@@ -44,6 +44,9 @@ static OptionsResult settle_mpi(Options *options)
             return option_complain(reading, "`--mpi` wants the scene in a file, which each rank reads");
         }
     }
+    if (options->shares_scene && options->frames.step) {
+        return option_complain(reading, "`--mpi=scene` is for one picture: frames are dealt by `--mpi`");
+    }
     if (options->frames.step && is_stream(options->output)) {
         return option_complain(reading, "`--mpi` deals frames over ranks: each wants a file of its own");
     }

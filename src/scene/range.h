@@ -39,6 +39,9 @@ typedef struct SceneScale {
 // (The direction and screen of a perspective camera have no length that matters.)
 SceneScale scene_scale(const Scene *scene, int threads);
 
+// Whether all lengths of a scene fit one scale, of spheres that are surveyed elsewhere, too.
+bool scene_range_is_held(const Scene *scene, const SphereSurvey *spheres);
+
 // Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and
 // of lights and cameras beyond the range. One pass.
 void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags);

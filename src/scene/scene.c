@@ -312,12 +312,43 @@ static bool add_run(Scene *scene, uint64_t source)
     return run_goes_on(scene, source) || ARRAY_PUSH(&scene->sphere_runs, run);
 }
 
+// ---- spheres that other processes keep
+
+enum { SHARE_RUN = 64 }; // spheres on end that one process keeps
+
+static bool is_elsewhere(const Scene *scene, uint32_t order)
+{
+    return scene->share.parts > 1 && order / SHARE_RUN % scene->share.parts != scene->share.part;
+}
+
+void scene_end_share(Scene *scene)
+{
+    if (scene->share.has_other) {
+        scene->spheres.count--;
+        scene->sphere_runs.count -=
+            scene->sphere_runs.items[scene->sphere_runs.count - 1].first == scene->spheres.count;
+        scene->share.has_other = false;
+    }
+}
+
+bool scene_pass_spheres(Scene *scene, size_t spheres)
+{
+    scene_end_share(scene);
+    if (spheres >= UINT32_MAX - scene->shape_count) {
+        return false;
+    }
+    scene->shape_count += (uint32_t)spheres;
+    return true;
+}
+
 bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex material, uint64_t source)
 {
     Sphere sphere = {centre, radius, material, (uint32_t)source};
+    scene_end_share(scene);
     if (scene->shape_count == UINT32_MAX || !add_run(scene, source) || !ARRAY_PUSH(&scene->spheres, sphere)) {
         return false;
     }
+    scene->share.has_other = is_elsewhere(scene, scene->shape_count);
     scene->shape_count++;
     return true;
 }
@@ -371,6 +402,7 @@ bool scene_materials_add_up(const Scene *scene)
 
 bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials)
 {
+    scene_end_share(scene);
     return spheres < UINT32_MAX - scene->shape_count && materials < MATERIAL_COMPOUND - scene->materials.count &&
            ARRAY_RESERVE(&scene->spheres, scene->spheres.count + spheres) &&
            ARRAY_RESERVE(&scene->sphere_runs, scene->sphere_runs.count + 1) &&
@@ -382,6 +414,28 @@ void scene_commit_spheres(Scene *scene, size_t spheres, uint64_t source)
     (void)add_run(scene, source); // there is room for it
     scene->spheres.count += spheres;
     scene->shape_count += (uint32_t)spheres;
+}
+
+bool scene_commit_share(Scene *scene, size_t spheres, uint64_t source)
+{
+    if (scene->share.parts <= 1) {
+        scene_commit_spheres(scene, spheres, source);
+        return true;
+    }
+    Sphere *from = &scene->spheres.items[scene->spheres.count];
+    for (size_t done = 0, some; done < spheres; done += some) {
+        some = SHARE_RUN - scene->shape_count % SHARE_RUN;
+        some = some < spheres - done ? some : spheres - done;
+        if (!is_elsewhere(scene, scene->shape_count)) {
+            if (!add_run(scene, source)) {
+                return false;
+            }
+            memmove(&scene->spheres.items[scene->spheres.count], from + done, some * sizeof *from);
+            scene->spheres.count += some;
+        }
+        scene->shape_count += (uint32_t)some;
+    }
+    return true;
 }
 
 void scene_commit_materials(Scene *scene, size_t materials)

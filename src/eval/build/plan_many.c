@@ -102,6 +102,5 @@ bool plan_keep(void *client, const void *list, size_t count, size_t more)
     if (ev->tells_plan) { // before there are shapes of it, as of any statement
         eval_tell_statement(ev, (Span){records[0].source, records[0].source + 1});
     }
-    scene_commit_spheres(scene, count, records[0].source);
-    return true;
+    return scene_commit_share(scene, count, records[0].source);
 }
