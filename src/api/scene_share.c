@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "api/session.h"
 #include "scene/part.h"
@@ -20,6 +21,81 @@ rt_status rt_share_scene(rt_session *session)
     }
     session->sharing.has_scene = true;
     return RT_OK;
+}
+
+// ---- reading
+
+enum { ROUND_MOST = 64 }; // bytes that a rank tells of a round
+
+typedef struct ReadRound {
+    uint64_t has_ended;
+    unsigned char told[ROUND_MOST];
+} ReadRound;
+
+static void *gather(rt_session *session, const void *own, size_t length)
+{
+    const Ranks *ranks = &session->sharing.ranks;
+    void *all = malloc((size_t)ranks->ranks * length);
+    if (!all) {
+        ranks->module->stop(RT_FAULT_LIMIT); // ends all, this one, too: they would wait
+    } else {
+        ranks->module->gather(own, all, length);
+    }
+    return all;
+}
+
+// Whether all ranks are where this one is: in a round, or at the end.
+static bool read_on(rt_session *session, const ReadRound *own, ReadRound *all)
+{
+    for (int i = 0; i < session->sharing.ranks.ranks; i++) {
+        if (all[i].has_ended != own->has_ended) {
+            session->sharing.has_read = true;
+            diag_report(&session->diags, DIAG_E0522, SPAN_NONE, "rank %d of %d cannot read its part of the scene",
+                        own->has_ended ? session->sharing.ranks.rank : i, session->sharing.ranks.ranks);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool exchange(void *client, const void *own, void *all, size_t length)
+{
+    rt_session *session = client;
+    ReadRound round = {0};
+    if (length > sizeof round.told) {
+        return false;
+    }
+    memcpy(round.told, own, length);
+    ReadRound *rounds = gather(session, &round, sizeof round);
+    for (int i = 0; i < session->sharing.ranks.ranks; i++) {
+        memcpy((unsigned char *)all + (size_t)i * length, rounds[i].told, length);
+    }
+    bool goes_on = read_on(session, &round, rounds);
+    free(rounds);
+    return goes_on;
+}
+
+const EvalShare *session_scene_reading(rt_session *session)
+{
+    SessionSharing *sharing = &session->sharing;
+    if (!sharing->has_scene || sharing->ranks.ranks == 1) {
+        return NULL;
+    }
+    sharing->share = (EvalShare){.part = sharing->ranks.rank, .parts = sharing->ranks.ranks, .exchange = exchange};
+    return &sharing->share;
+}
+
+bool session_scene_read(rt_session *session)
+{
+    ReadRound own = {.has_ended = 1};
+    if (session->sharing.has_read) {
+        return false;
+    }
+    ReadRound *all = gather(session, &own, sizeof own);
+    session->sharing.has_read = true;
+    bool are_together = read_on(session, &own, all);
+    free(all);
+    return are_together;
 }
 
 // ---- what cannot be shared
@@ -97,18 +173,6 @@ static bool scene_fits(rt_session *session)
 }
 
 // ---- what all know
-
-static void *gather(rt_session *session, const void *own, size_t length)
-{
-    const Ranks *ranks = &session->sharing.ranks;
-    void *all = malloc((size_t)ranks->ranks * length);
-    if (!all) {
-        ranks->module->stop(RT_FAULT_LIMIT); // ends all, this one, too: they would wait
-    } else {
-        ranks->module->gather(own, all, length);
-    }
-    return all;
-}
 
 static void share_survey(rt_session *session)
 {

@@ -253,6 +253,7 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
                      : session->loaded            ? session_note_slice
                                                   : session_note_statement,
         .declared = &session->names_declared,
+        .share = session_scene_reading(session),
         .cancel = &session->cancel,
         .message = forward_message,
         .client = session,

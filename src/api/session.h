@@ -77,6 +77,8 @@ typedef struct SessionSharing {
     Ranks ranks;
     bool has_scene; // each rank has a part of it: see scene_share.c
     bool has_clear; // of which, together, something lets light through
+    bool has_read;  // the ranks have ended reading, together
+    EvalShare share;
     TileAsking asking;
 } SessionSharing;
 
@@ -246,6 +248,10 @@ static inline bool session_is_sampled(const rt_session *session)
     return sampling_is_wanted(&sampling);
 }
 
+// How ranks read a scene of which each keeps a part; NULL: this one has all of it.
+const EvalShare *session_scene_reading(rt_session *session);
+// This rank has read the scene, or could not. Called by all ranks; false: one of them has failed meanwhile, reported.
+bool session_scene_read(rt_session *session);
 // Of a scene of which each rank has a part: what refuses it and what all ranks must know of it. Called by all ranks once
 // it is loaded; false: reported.
 bool session_scene_agree(rt_session *session);

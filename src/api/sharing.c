@@ -421,6 +421,9 @@ rt_status rt_agree_with_ranks(rt_session *session, rt_status status, int *first)
     if (!sharing->has_ranks) {
         return status;
     }
+    if (sharing->has_scene && !session_scene_read(session)) {
+        status = status ? status : session_status(session, false);
+    }
     if (!status && !share_is_possible(session)) {
         status = session_status(session, false);
     }

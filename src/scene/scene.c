@@ -416,28 +416,6 @@ void scene_commit_spheres(Scene *scene, size_t spheres, uint64_t source)
     scene->shape_count += (uint32_t)spheres;
 }
 
-bool scene_commit_share(Scene *scene, size_t spheres, uint64_t source)
-{
-    if (scene->share.parts <= 1) {
-        scene_commit_spheres(scene, spheres, source);
-        return true;
-    }
-    Sphere *from = &scene->spheres.items[scene->spheres.count];
-    for (size_t done = 0, some; done < spheres; done += some) {
-        some = SHARE_RUN - scene->shape_count % SHARE_RUN;
-        some = some < spheres - done ? some : spheres - done;
-        if (!is_elsewhere(scene, scene->shape_count)) {
-            if (!add_run(scene, source)) {
-                return false;
-            }
-            memmove(&scene->spheres.items[scene->spheres.count], from + done, some * sizeof *from);
-            scene->spheres.count += some;
-        }
-        scene->shape_count += (uint32_t)some;
-    }
-    return true;
-}
-
 void scene_commit_materials(Scene *scene, size_t materials)
 {
     scene->materials.count += materials;

@@ -581,8 +581,6 @@ bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials) RT_MU
 void scene_commit_spheres(Scene *scene, size_t spheres, uint64_t source);
 // So many materials are there behind the list's end, each unlike the one before, once materials add up.
 void scene_commit_materials(Scene *scene, size_t materials);
-// The same where other processes keep some of them, which are left out. False when out of memory.
-bool scene_commit_share(Scene *scene, size_t spheres, uint64_t source) RT_MUST_CHECK;
 // So many follow that another process keeps.
 bool scene_pass_spheres(Scene *scene, size_t spheres) RT_MUST_CHECK;
 // Once all shapes are there: none of another process is.
