@@ -567,8 +567,9 @@ typedef struct rt_budget {
     uint64_t picture;  /* the film */
     uint64_t limit;    /* of all together: RT_LIMIT_MEMORY */
 } rt_budget;
-/* What rt_render will need, reported before it is spent. RT_FAULT_USAGE when no scene is loaded. */
-RT_API rt_status rt_get_budget(const rt_session *session, rt_budget *budget);
+/* What rt_render will need, reported before it is spent. RT_FAULT_USAGE when no scene is loaded. Of a scene that ranks
+ * share: what the one needs that needs most; called by all, also where it could not be loaded. */
+RT_API rt_status rt_get_budget(rt_session *session, rt_budget *budget);
 
 /* What was done and how long it took. */
 typedef struct rt_summary {

@@ -210,6 +210,23 @@ bool session_scene_agree(rt_session *session)
            refuse(session, scene->whole, "lengths that no scale holds together");
 }
 
+rt_status session_scene_budget(rt_session *session, rt_budget own, rt_budget *greatest)
+{
+    *greatest = own;
+    if (!session_scene_read(session)) {
+        return session_status(session, false);
+    }
+    rt_budget *all = gather(session, &own, sizeof own);
+    bool are_loaded = session->loaded;
+    for (int i = 0; i < session->sharing.ranks.ranks; i++) {
+        uint64_t needs = all[i].scene + all[i].prepared;
+        are_loaded = are_loaded && all[i].limit > 0;
+        *greatest = needs > greatest->scene + greatest->prepared ? all[i] : *greatest;
+    }
+    free(all);
+    return are_loaded ? RT_OK : RT_FAULT_USAGE;
+}
+
 Vec3 session_scene_recentre(rt_session *session)
 {
     if (!session->sharing.has_scene) {

@@ -157,7 +157,11 @@ static rt_status budget(rt_session *session, const Options *options)
     rt_budget b = {0};
     char text[512];
     rt_status status = rt_load_file(session, options->scene);
-    status = status ? status : rt_get_budget(session, &b);
+    rt_status got = status && !options->shares_scene ? status : rt_get_budget(session, &b);
+    status = status ? status : got;
+    if (options->rank > 0) {
+        return status; // rank 0 has what the greatest needs
+    }
     snprintf(text, sizeof text,
              "objects          %15llu\n"
              "scene, bytes     %15llu\n"

@@ -33,7 +33,8 @@ static bool is_stream(const char *name)
 static OptionsResult settle_mpi(Options *options)
 {
     OptionReading *reading = &options->reading;
-    if (options->action != ACTION_RENDER || options->rerun || options->joins || options->parts > 0) {
+    bool is_possible = options->action == ACTION_RENDER || (options->action == ACTION_BUDGET && options->shares_scene);
+    if (!is_possible || options->rerun || options->joins || options->parts > 0) {
         return option_complain(reading, "`--mpi` is for drawing pictures, without `--part`, `--join` and `--rerun`");
     }
     if (options->is_untrusted) {

@@ -383,6 +383,12 @@ static bool table_share(Geometry *geometry, Elsewhere *e)
     return true;
 }
 
+size_t geometry_share_bytes(int threads)
+{
+    return ((size_t)threads + ASKERS_BESIDE) * ASKER_SLOTS *
+           (sizeof(SphereBlock) / SPHERE_BLOCK + sizeof(ShapeInfo) + sizeof(Material));
+}
+
 bool geometry_share(Geometry *geometry, const Scene *scene, int threads)
 {
     Elsewhere *e = calloc(1, sizeof *e);

@@ -41,6 +41,9 @@ const Material *geometry_materials(const Geometry *geometry);
 // ask. False when out of memory; the geometry is to be released anyway.
 bool geometry_share(Geometry *geometry, const Scene *scene, int threads) RT_MUST_CHECK;
 
+// What that takes beside the own spheres, at most.
+size_t geometry_share_bytes(int threads);
+
 // Of this process's own spheres; by any thread, of which each has a number below ANSWERERS_MOST.
 enum { ANSWERERS_MOST = 256, ANSWERER_BLOCKS = ANSWERERS_MOST / SPHERE_BLOCK };
 void geometry_answer(const Geometry *geometry, unsigned thread, const SphereQuestion *questions, size_t count,
