@@ -32,7 +32,7 @@ typedef struct ReadRound {
     unsigned char told[ROUND_MOST];
 } ReadRound;
 
-static void *gather(rt_session *session, const void *own, size_t length)
+void *session_scene_gather(rt_session *session, const void *own, size_t length)
 {
     const Ranks *ranks = &session->sharing.ranks;
     void *all = malloc((size_t)ranks->ranks * length);
@@ -66,7 +66,7 @@ static bool exchange(void *client, const void *own, void *all, size_t length)
         return false;
     }
     memcpy(round.told, own, length);
-    ReadRound *rounds = gather(session, &round, sizeof round);
+    ReadRound *rounds = session_scene_gather(session, &round, sizeof round);
     for (int i = 0; i < session->sharing.ranks.ranks; i++) {
         memcpy((unsigned char *)all + (size_t)i * length, rounds[i].told, length);
     }
@@ -91,7 +91,7 @@ bool session_scene_read(rt_session *session)
     if (session->sharing.has_read) {
         return false;
     }
-    ReadRound *all = gather(session, &own, sizeof own);
+    ReadRound *all = session_scene_gather(session, &own, sizeof own);
     session->sharing.has_read = true;
     bool are_together = read_on(session, &own, all);
     free(all);
@@ -177,7 +177,7 @@ static bool scene_fits(rt_session *session)
 static void share_survey(rt_session *session)
 {
     scene_keep_survey(&session->scene, session->threads > 0 ? session->threads : 1);
-    SphereSurvey *all = gather(session, &session->scene.survey, sizeof *all);
+    SphereSurvey *all = session_scene_gather(session, &session->scene.survey, sizeof *all);
     for (int i = 0; i < session->sharing.ranks.ranks; i++) {
         sphere_survey_add(&session->scene.survey, &all[i]);
     }
@@ -196,7 +196,7 @@ static bool has_clear(const Scene *scene)
 bool session_scene_agree(rt_session *session)
 {
     const Scene *scene = &session->scene;
-    int32_t own = has_clear(scene), *all = gather(session, &own, sizeof own);
+    int32_t own = has_clear(scene), *all = session_scene_gather(session, &own, sizeof own);
     session->sharing.has_clear = false;
     for (int i = 0; i < session->sharing.ranks.ranks; i++) {
         session->sharing.has_clear = session->sharing.has_clear || all[i];
@@ -206,8 +206,10 @@ bool session_scene_agree(rt_session *session)
     if (!scene_fits(session)) {
         return false;
     }
-    return scene_range_is_held(scene, &scene->survey) ||
-           refuse(session, scene->whole, "lengths that no scale holds together");
+    if (!scene_range_is_held(scene, &scene->survey)) {
+        return refuse(session, scene->whole, "lengths that no scale holds together");
+    }
+    return session_scene_tell(session);
 }
 
 rt_status session_scene_budget(rt_session *session, rt_budget own, rt_budget *greatest)
@@ -216,7 +218,7 @@ rt_status session_scene_budget(rt_session *session, rt_budget own, rt_budget *gr
     if (!session_scene_read(session)) {
         return session_status(session, false);
     }
-    rt_budget *all = gather(session, &own, sizeof own);
+    rt_budget *all = session_scene_gather(session, &own, sizeof own);
     bool are_loaded = session->loaded;
     for (int i = 0; i < session->sharing.ranks.ranks; i++) {
         uint64_t needs = all[i].scene + all[i].prepared;
@@ -234,7 +236,7 @@ Vec3 session_scene_recentre(rt_session *session)
     }
     RecentreAxis own[3], (*all)[3];
     scene_recentre_measure(&session->scene, own);
-    all = gather(session, own, sizeof own);
+    all = session_scene_gather(session, own, sizeof own);
     for (int i = 0; i < session->sharing.ranks.ranks; i++) {
         scene_recentre_join(own, all[i]);
     }

@@ -463,6 +463,13 @@ static void check_spheres(const Scene *scene, const SphereSurvey *survey, const 
     }
 }
 
+bool scene_range_tells(const Scene *scene, const SphereSurvey *survey, const SphereSurvey *some)
+{
+    int exponent = scale_with(scene, survey).exponent;
+    Watch watch = {NULL, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
+    return !nothing_to_tell(&watch, some->least_radius, some->greatest_radius, some->greatest_place);
+}
+
 void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags)
 {
     int exponent = scale_with(scene, survey).exponent;

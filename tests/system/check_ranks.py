@@ -158,4 +158,5 @@ def main():
     test.done()
 
 
-main()
+if __name__ == "__main__":
+    main()
