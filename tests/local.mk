@@ -297,6 +297,7 @@ test_scripts = \
   %D%/system/check_rerun.py \
   %D%/system/check_share.py \
   %D%/system/check_ranks.py \
+  %D%/system/check_shared_scene.py \
   %D%/system/check_install.py \
   %D%/system/check_python.py \
   %D%/system/check_strip.py \
@@ -444,6 +445,7 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) EXPORTERS_LONG=1 $(PYTHON3) $(top_srcdir)/tests/povray/check_exporters.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_share.py kills 1000
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_ranks.py
+	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_shared_scene.py
 	TURNS=3000 tests/unit/test_partial$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
 
