@@ -550,6 +550,8 @@ RT_API rt_status rt_join_ranks(rt_session *session, int *rank, int *ranks);
 /* Each rank keeps a part of the spheres of the scenes that are loaded from here on, and asks the others for what its rays
  * meet: for scenes that are larger than a machine. RT_FAULT_USAGE without ranks, or once a scene is loaded. */
 RT_API rt_status rt_share_scene(rt_session *session);
+/* rt_load_file by rank 0 alone, which sends the scene to the others; called by all. Not with rt_share_scene. */
+RT_API rt_status rt_load_file_of_ranks(rt_session *session, const char *path);
 /* After the scene is loaded, or could not be, with `status`; called by all ranks. RT_OK where each is ready to render the
  * same picture; else what the worst has, and rank 0 reports the first rank that is not, *first. */
 RT_API rt_status rt_agree_with_ranks(rt_session *session, rt_status status, int *first);

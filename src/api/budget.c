@@ -7,16 +7,16 @@
 #include "trace/elsewhere.h"
 
 // What the tree takes for a shape, and the prepared forms of the records as a multiple of these: bounds that hold for
-// a million spheres (95 bytes each in all), stretched spheres (370 in the tree), boxes (460) and differences (910). Plain
-// spheres and their materials have no other form than that in the tree.
+// a million spheres (95 bytes each in all), stretched spheres (370 in the tree), boxes (460) and differences (910).
+// Plain spheres and their materials have no other form than that in the tree.
 enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
 
 static rt_budget budget_of(const rt_session *session)
 {
     const Scene *records = &session->scene;
     uint64_t scene = scene_bytes(records), pictures = scene_picture_bytes(records);
-    uint64_t plain = records->spheres.capacity * sizeof(Sphere) +
-                     records->sphere_runs.capacity * sizeof(SphereRun) + records->materials.capacity * sizeof(Material);
+    uint64_t plain = records->spheres.capacity * sizeof(Sphere) + records->sphere_runs.capacity * sizeof(SphereRun) +
+                     records->materials.capacity * sizeof(Material);
     bool is_shared = session->sharing.has_scene;
     uint64_t objects = session->scene.shape_count, held = is_shared ? scene_shapes_in_all(records) : objects;
     uint64_t met = is_shared ? geometry_share_bytes(session->threads) : 0; // of other ranks' shapes

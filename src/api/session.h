@@ -75,6 +75,9 @@ typedef struct SessionSharing {
     Alone alone;
     bool has_ranks;
     Ranks ranks;
+    bool is_sent;   // the scene came from rank 0, with …
+    size_t file_count; // … what tells its files apart
+    unsigned char files[DIGEST_BYTES];
     bool has_scene; // each rank has a part of it: see scene_share.c
     bool has_clear; // of which, together, something lets light through
     bool has_read;  // the ranks have ended reading, together

@@ -171,7 +171,10 @@ static bool make_head(const rt_session *session, PartialHead *head)
     const SessionSharing *sharing = &session->sharing;
     unsigned char digest[DIGEST_BYTES] = {0};
     char text[DIGEST_TEXT], files[DIGEST_TEXT + 32] = "", part[32] = "";
-    size_t count = source_map_digest(session->sources, digest);
+    size_t count = sharing->is_sent ? sharing->file_count : source_map_digest(session->sources, digest);
+    if (sharing->is_sent) {
+        memcpy(digest, sharing->files, sizeof digest);
+    }
     if (count > 0) {
         digest_text(digest, text);
         snprintf(files, sizeof files, "%zu, %s", count, text);

@@ -495,6 +495,13 @@ static bool apply_mpi(Options *options, const char *argument, OptionReading *rea
     return options->has_mpi = !argument || options->shares_scene || strcmp(argument, "tiles") == 0;
 }
 
+static bool apply_mpi_read(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "all or one";
+    options->has_one_reader = strcmp(argument, "one") == 0;
+    return options->has_one_reader || strcmp(argument, "all") == 0;
+}
+
 static bool apply_join(Options *options, const char *argument, OptionReading *reading)
 {
     (void)argument, (void)reading;
@@ -704,6 +711,8 @@ static const OptionRow rows[] = {
     {0, "mpi", "[SHARED]", apply_mpi,
      "with mpirun: all ranks trace tiles of each picture, or draw frames of their own, and rank 0 writes; "
      "the bytes do not depend on their number; SHARED is tiles (default) or scene: each holds a part of the spheres"},
+    {0, "mpi-read", "all|one", apply_mpi_read,
+     "of --mpi: each rank reads the scene's files (default), or rank 0 alone, which sends it to the others"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {0, "header", "FILE", apply_header, "include FILE before the scene's first statement"},
     {0, "no-povray-includes", NULL, apply_no_povray_includes,

@@ -377,6 +377,12 @@ static rt_status draw(rt_session *session, Options *options, const char *output,
     return !status && options->rerun ? compare_again(session, options, voice) : status;
 }
 
+static rt_status load_scene(rt_session *session, const Options *options)
+{
+    bool is_sent = share_has_ranks(options) && options->has_one_reader;
+    return is_sent ? rt_load_file_of_ranks(session, options->scene) : rt_load_file(session, options->scene);
+}
+
 static rt_status render(rt_session *session, Options *options, Voice *voice)
 {
     char name[OUTPUT_NAME];
@@ -389,7 +395,7 @@ static rt_status render(rt_session *session, Options *options, Voice *voice)
     if (!status && options->keeps_scene) {
         status = rt_expect_frames(session);
     }
-    status = status ? status : rt_load_file(session, options->scene);
+    status = status ? status : load_scene(session, options);
     status = status ? status : rt_set_method(session, options->method, options->photons);
     status = share_agree(session, options, voice, status);
     if (status) {
