@@ -60,7 +60,7 @@ def table(rows):
 
 def efficiency(turns):
     with tempfile.TemporaryDirectory() as folder:
-        tiles = ["-q", "-t", "1", "-W", "1600", "-H", "1200", "--antialias", "-o"]
+        tiles = ["-q", "-t", "1", "-W", "1600", "-H", "1200", "--antialias=2", "--antialias-threshold=0.1", "-o"]
         frames = ["-q", "-t", "1", "-W", "320", "-H", "240", "--samples=4", "--frames=1..32", "-o"]
         found = medians({
             "tiles, no MPI": [RTLANG, *tiles, "a.png", EXAMPLE],

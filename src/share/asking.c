@@ -198,11 +198,15 @@ bool asking_take(Asking *asking, int from, unsigned char *bytes, size_t length)
     return true;
 }
 
+void asking_post(Asking *asking, int to, unsigned char *bytes, size_t length)
+{
+    pthread_mutex_lock(&asking->lock);
+    put(asking, &asking->to_send, to, bytes, length);
+    pthread_mutex_unlock(&asking->lock);
+}
+
 bool asking_send(Asking *asking)
 {
-    if (!asking->table) {
-        return false;
-    }
     pthread_mutex_lock(&asking->lock);
     AskingMessages ready = asking->to_send;
     asking->to_send = (AskingMessages){0};

@@ -56,6 +56,9 @@ TileSettled asking_settle(Asking *asking, bool (*is_over)(void *client), void *c
 // Answers one list of questions, if there is one. Whether there was.
 bool asking_help(Asking *asking);
 
+// A message of any kind, whose bytes are taken over: it goes with the others.
+void asking_post(Asking *asking, int to, unsigned char *bytes, size_t length);
+
 // Of the thread that talks. A message that came, which is taken over; false: it is none of these.
 bool asking_take(Asking *asking, int from, unsigned char *bytes, size_t length);
 // Sends what is to be sent. Whether anything was.

@@ -234,9 +234,8 @@ static bool send_results(Ranks *ranks, int *looks)
     pthread_mutex_unlock(&ranks->lock);
     *looks = ready.count > 0 ? 0 : *looks;
     for (size_t i = 0; i < ready.count; i++) { // each begins as a message does
-        ranks->module->send(0, text_get(&ready.items[i].bytes), ready.items[i].bytes.length);
+        asking_post(&ranks->asking, 0, (unsigned char *)ready.items[i].bytes.text, ready.items[i].bytes.length);
     }
-    results_clear(&ready);
     ARRAY_FREE(&ready);
     return failed;
 }
@@ -266,24 +265,35 @@ static void take_tiles(Ranks *ranks, const unsigned char *bytes, size_t length)
     pthread_mutex_unlock(&ranks->lock);
 }
 
-// Where ranks ask each other, none may stop listening before nothing is on its way to it: this one says goodbye when it
-// has sent all, and rank 0 says when all have.
-static void end_asking(Ranks *ranks, bool said_goodbye)
+// Hears what others may still ask.
+static bool hear_questions(Ranks *ranks, int *looks)
 {
-    int from, looks = 0;
+    int from;
     unsigned char *bytes;
     size_t length;
-    bool failed = false, is_over = !ranks->asking.table;
-    while (!is_over) {
+    bool failed = false, is_over = false;
+    if (!ranks->module->receive(&from, &bytes, &length, &failed)) {
+        idle(looks);
+    } else if (!asking_take(&ranks->asking, from, bytes, length)) {
+        is_over = bytes[0] == WORD_OVER;
+        free(bytes);
+    }
+    return is_over;
+}
+
+// All that is on its way arrives before this rank says goodbye.
+static void end_sending(Ranks *ranks)
+{
+    for (int looks = 0; !asking_is_quiet(&ranks->asking);) {
         (void)asking_send(&ranks->asking);
-        bool heard = ranks->module->receive(&from, &bytes, &length, &failed);
-        is_over = !said_goodbye && asking_is_quiet(&ranks->asking);
-        if (!heard) {
-            idle(&looks);
-        } else if (!asking_take(&ranks->asking, from, bytes, length)) {
-            is_over = is_over || bytes[0] == WORD_OVER;
-            free(bytes);
-        }
+        (void)hear_questions(ranks, &looks);
+    }
+}
+
+// Where ranks ask each other, none may stop listening before nothing is on its way to it, which rank 0 says.
+static void wait_for_all(Ranks *ranks)
+{
+    for (int looks = 0; ranks->asking.table && !hear_questions(ranks, &looks);) {
     }
 }
 
@@ -322,9 +332,9 @@ static void serve_other(Ranks *ranks, bool (*stops)(void *run), void *run)
         }
         free(bytes);
     }
-    end_asking(ranks, false);
+    end_sending(ranks);
     send_numbers(ranks, 0, WORD_BYE, NULL, 0);
-    end_asking(ranks, true);
+    wait_for_all(ranks);
 }
 
 // ---- the table
@@ -360,7 +370,7 @@ static int next(void *client)
             tile = ranks->queue[ranks->queue_begin++];
         }
         pthread_mutex_unlock(&ranks->lock);
-        if (tile >= 0 || is_over || (ranks->rank == 0 && !ranks->asking.table)) {
+        if (tile >= 0 || is_over || (ranks->rank == 0 && (!ranks->asking.table || ranks->ranks == 1))) {
             return tile;
         }
         if (!ranks->asking.table || !asking_help(&ranks->asking)) {
@@ -492,7 +502,8 @@ static TileShareResult end(void *client, bool is_stopped, TileTake *take, void *
     Ranks *ranks = client;
     TextBuffer all;
     bool is_whole = true;
-    (void)is_stopped;
+    bool is_alone = ranks->ranks == 1; // else rank 0 has said so while it served
+    ranks->is_stopped = ranks->is_stopped || (is_alone && (is_stopped || ranks->has_failed || ranks->store->fault));
     if (ranks->is_stopped) {
         if (ranks->rank == 0) {
             store_flush(ranks->store);
@@ -532,7 +543,7 @@ void ranks_use(Ranks *ranks, Store *store)
 {
     ranks->store = store;
     ranks->table = (TileShare){.client = ranks,
-                               .serves = true,
+                               .serves = ranks->ranks > 1, // nobody is to be heard else
                                .begin = begin,
                                .next = next,
                                .give = give,
