@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Pictures that ranks share over MPI: the bytes of one process, for any number of ranks, which tell who fails.
 
-Prints TAP. SPDX-License-Identifier: MIT
+Without words all of it, in short, and with CHECK_LONG=1 at length; `kills N` kills a rank of N runs, at a random moment
+each. Prints TAP. SPDX-License-Identifier: MIT
 """
 import contextlib
 import os
@@ -178,6 +179,10 @@ def main():
     why = has_module()
     if why:
         test.skip("ranks of MPI", why.splitlines()[0])
+    elif len(sys.argv) > 2 and sys.argv[1] == "kills":
+        place = Place()
+        check_kills(test, place, int(sys.argv[2]))
+        place.close()
     else:
         place = Place()
         check_pictures(test, place)

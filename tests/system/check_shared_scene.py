@@ -114,6 +114,17 @@ def check_refused(test, place):
     test.ok(found == 3 and said.count("E0501") == 1, "no scene", said)
 
 
+def check_continued(test, place):
+    """A run that SIGTERM ends, and that another number of ranks continues."""
+    code, alone = place.run(*SIZE, "-o", "one.png", "loop.scn")
+    words = [*SIZE, "--mpi=scene", "--checkpoint=0", "--resume", "-o", "kept.png", "loop.scn"]
+    timer = ["sh", "-c", 'timeout -s TERM 0.05 "$0" "$@" || true']
+    code, said = place.run(*words, before=[*ranks(2), *timer])
+    code, more = place.run(*words, before=ranks(3))
+    test.ok(code == 0 and place.bytes("kept.png") == place.bytes("one.png") and not place.bytes("kept.png.checkpoint"),
+            "a run that was ended and continued", alone + said + more)
+
+
 def check_budget(test, place):
     _, alone = subprocess.getstatusoutput("cd %s && %s --budget many.scn" % (place.path, PROGRAM))
     done = subprocess.run([*ranks(4), PROGRAM, "--budget", "--mpi=scene", "many.scn"], cwd=place.path,
@@ -162,6 +173,7 @@ def main():
         place = Place()
         check_pictures(test, place)
         check_refused(test, place)
+        check_continued(test, place)
         check_budget(test, place)
         place.close()
     test.done()
