@@ -54,6 +54,7 @@ unit_programs = \
   tests/unit/test_trace_pixel \
   tests/unit/test_trace_parts \
   tests/unit/test_trace_csg \
+  tests/unit/test_trace_elsewhere \
   tests/unit/test_trace_shapes \
   tests/unit/test_torus \
   tests/unit/test_polynomial \
@@ -121,6 +122,8 @@ tests/unit/test_trace_certified.$(OBJEXT): src/study/optional.h
 trace_headers = %D%/unit/trace_scenes.h $(unit_headers)
 tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c $(trace_headers)
 tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)
+tests_unit_test_trace_elsewhere_SOURCES = %D%/unit/test_trace_elsewhere.c $(trace_headers)
+tests_unit_test_trace_elsewhere_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_csg_SOURCES = %D%/unit/test_trace_csg.c $(trace_headers)
 tests_unit_test_trace_csg_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_parts_SOURCES = %D%/unit/test_trace_parts.c $(trace_headers)

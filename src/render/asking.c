@@ -25,9 +25,9 @@ static bool forget(void *client)
     return geometry_forget(client);
 }
 
-static void answer(void *client, unsigned thread, const void *list, size_t count, void *answers)
+static bool answer(void *client, const void *list, size_t count, void *answers)
 {
-    geometry_answer(client, thread, list, count, answers);
+    return geometry_answer(client, list, count, answers);
 }
 
 TileAsking prepared_asking(const Prepared *prepared)

@@ -1,7 +1,6 @@
 // Questions and answers between ranks: see asking.h.
 //
-// A message is its first byte, the number of the wait, and the questions or answers. Numbers of threads that answer are
-// given as they come: who answers at the same time as another has another one.
+// A message is its first byte, the number of the wait, and the questions or answers.
 //
 // SPDX-License-Identifier: MIT
 #include "share/asking.h"
@@ -13,7 +12,6 @@
 enum {
     HEAD = 1 + sizeof(int32_t),
     IDLE_NANOSECONDS = 20000, // between looks for answers
-    ANSWERS_AT_ONCE = 64,     // numbers of threads that answer at the same time
 };
 
 bool asking_init(Asking *asking, const MpiModule *module, int rank, int ranks, unsigned char question,
@@ -69,7 +67,6 @@ bool asking_help(Asking *asking)
         return false;
     }
     AskingMessage message = asking->questions.items[--asking->questions.count];
-    unsigned thread = asking->threads++ % ANSWERS_AT_ONCE;
     pthread_mutex_unlock(&asking->lock);
     size_t count = (message.length - HEAD) / asking->table->question_bytes;
     size_t length = count * asking->table->answer_bytes;
@@ -78,11 +75,13 @@ bool asking_help(Asking *asking)
     // Behind the head they would not be aligned.
     void *questions = malloc(message.length), *answers = malloc(length + 1);
     unsigned char *bytes = message_new(asking->answer, number, length);
+    bool is_answered = false;
     if (questions && answers && bytes) {
         memcpy(questions, message.bytes + HEAD, message.length - HEAD);
-        asking->table->answer(asking->table->client, thread, questions, count, answers);
+        is_answered = asking->table->answer(asking->table->client, questions, count, answers);
         memcpy(bytes + HEAD, answers, length);
-    } else {
+    }
+    if (!is_answered) {
         free(bytes);
         bytes = NULL;
     }
@@ -104,8 +103,6 @@ static void send_questions(Asking *asking, AskingWait *wait, const void *questio
     wait->number = ++asking->last;
     wait->next = asking->waits;
     asking->waits = wait;
-    asking->rounds++;
-    asking->asked += count;
     for (int to = 0; to < asking->ranks; to++) {
         if (to != asking->rank) {
             unsigned char *bytes = message_new(asking->question, wait->number, length);

@@ -41,9 +41,7 @@ typedef struct Asking {
     pthread_mutex_t lock;           // of all below
     AskingMessages to_send, on_their_way, questions;
     AskingWait *waits;
-    int32_t last;           // number of a wait
-    unsigned threads;       // numbers of those that answer
-    uint64_t rounds, asked; // batches sent, and questions in them, since the picture began
+    int32_t last; // number of a wait
     bool has_failed;
 } Asking;
 

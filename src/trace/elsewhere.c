@@ -38,7 +38,7 @@ typedef struct Asker {
     ARRAY(SphereQuestion) questions; // … as others are asked
     uint32_t *table;                 // numbers of `asked` + 1; 0: empty
     uint32_t mask;
-    uint32_t first, slots; // the first of its slots, and how many hold something
+    uint32_t number, first, slots; // its own, the first of its slots, and how many hold something
     bool failed;
     atomic_bool is_taken; // by a thread
 } Asker;
@@ -137,7 +137,8 @@ static Asked *asker_find(Asker *asker, const SphereQuestion *question, bool *is_
 
 // ---- answers of the own spheres
 
-static void answer_one(const Elsewhere *e, uint32_t spare, const SphereQuestion *question, SphereAnswer *answer)
+// The asker of the calling thread, which has a place of its own for the sphere that a ray starts on.
+static void answer_one(const Elsewhere *e, const Asker *asker, const SphereQuestion *question, SphereAnswer *answer)
 {
     SphereRay ray = sphere_ray_make(question->origin, question->direction);
     uint32_t start = SLOT_NONE;
@@ -147,7 +148,7 @@ static void answer_one(const Elsewhere *e, uint32_t spare, const SphereQuestion 
         return;
     }
     if (!isnan(question->start.radius_squared)) {
-        start = e->own.block_count * SPHERE_BLOCK + spare;
+        start = e->own.block_count * SPHERE_BLOCK + asker->number;
         SphereBlock *block = &e->own.blocks[start / SPHERE_BLOCK];
         block->x[start % SPHERE_BLOCK] = question->start.centre.x;
         block->y[start % SPHERE_BLOCK] = question->start.centre.y;
@@ -170,12 +171,13 @@ static void answer_one(const Elsewhere *e, uint32_t spare, const SphereQuestion 
     }
 }
 
-void geometry_answer(const Geometry *geometry, unsigned thread, const SphereQuestion *questions, size_t count,
-                     SphereAnswer *answers)
+bool geometry_answer(const Geometry *geometry, const SphereQuestion *questions, size_t count, SphereAnswer *answers)
 {
-    for (size_t i = 0; i < count; i++) {
-        answer_one(geometry->elsewhere, thread % ANSWERERS_MOST, &questions[i], &answers[i]);
+    const Asker *asker = asker_get(geometry->elsewhere);
+    for (size_t i = 0; asker && i < count; i++) {
+        answer_one(geometry->elsewhere, asker, &questions[i], &answers[i]);
     }
+    return asker != NULL;
 }
 
 // Both roots are refined: as nearest_offer_tie has it.
@@ -204,8 +206,8 @@ static Asked *ask(Elsewhere *e, Asker *asker, const SphereQuestion *question)
         return asked;
     }
     SphereQuestion wider = *question;
-    uint32_t number = (uint32_t)(asked - asker->asked.items), thread = ANSWERERS_MOST - 1 - asker->first / ASKER_SLOTS;
-    answer_one(e, thread, question, &asked->answer);
+    uint32_t number = (uint32_t)(asked - asker->asked.items);
+    answer_one(e, asker, question, &asked->answer);
     if (question->is_shadow && asked->answer.order != ANSWER_NOTHING) {
         asked->is_known = true;
         return asked;
@@ -383,6 +385,11 @@ static bool table_share(Geometry *geometry, Elsewhere *e)
     return true;
 }
 
+size_t geometry_share_blocks(int threads)
+{
+    return ((size_t)threads + ASKERS_BESIDE + SPHERE_BLOCK - 1) / SPHERE_BLOCK;
+}
+
 size_t geometry_share_bytes(int threads)
 {
     return ((size_t)threads + ASKERS_BESIDE) * ASKER_SLOTS *
@@ -405,6 +412,7 @@ bool geometry_share(Geometry *geometry, const Scene *scene, int threads)
         return false;
     }
     for (uint32_t i = 0; i < e->askers_most; i++) {
+        e->askers[i].number = i;
         e->askers[i].first = i * ASKER_SLOTS;
     }
     for (uint32_t i = 0; i < e->plane_count; i++) {

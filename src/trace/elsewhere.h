@@ -44,10 +44,11 @@ bool geometry_share(Geometry *geometry, const Scene *scene, int threads) RT_MUST
 // What that takes beside the own spheres, at most.
 size_t geometry_share_bytes(int threads);
 
-// Of this process's own spheres; by any thread, of which each has a number below ANSWERERS_MOST.
-enum { ANSWERERS_MOST = 256, ANSWERER_BLOCKS = ANSWERERS_MOST / SPHERE_BLOCK };
-void geometry_answer(const Geometry *geometry, unsigned thread, const SphereQuestion *questions, size_t count,
-                     SphereAnswer *answers);
+// Of this process's own spheres; by a thread that may ask. False: it is one too many.
+bool geometry_answer(const Geometry *geometry, const SphereQuestion *questions, size_t count,
+                     SphereAnswer *answers) RT_MUST_CHECK;
+// Blocks behind those of the own spheres that this takes.
+size_t geometry_share_blocks(int threads);
 
 // What the calling thread has asked for and must know; 0: all is known. They stay until geometry_learn.
 size_t geometry_questions(const Geometry *geometry, const SphereQuestion **questions);

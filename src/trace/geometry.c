@@ -126,7 +126,7 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
     geometry->kernels = sphere_kernels_choose(options->isa);
     if (!geometry->kernels ||
         !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent,
-                           options->is_shared ? ANSWERER_BLOCKS : 0, options->cancel) ||
+                           options->is_shared ? geometry_share_blocks(options->threads) : 0, options->cancel) ||
         !planes_init(geometry, scene, exponent) ||
         !shapes_init(&geometry->shapes, scene, exponent, options->threads, options->cancel) ||
         !coincident_init(geometry)) {

@@ -58,8 +58,8 @@ typedef struct TileAsking {
     void (*learn)(void *client, const void *answers, size_t lists);
     // False: it had to leave questions out.
     bool (*forget)(void *client);
-    // Answers others. Called by any thread, each with a number of its own.
-    void (*answer)(void *client, unsigned thread, const void *questions, size_t count, void *answers);
+    // Answers others. Called by threads that trace. False: more than were told of do.
+    bool (*answer)(void *client, const void *questions, size_t count, void *answers);
 } TileAsking;
 
 #endif
