@@ -708,9 +708,9 @@ static const OptionRow rows[] = {
     {0, "part", "I/N", apply_part, "trace part I of N of the picture, 1 to N, into PICTURE.part-I-of-N, for --join"},
     {0, "join", NULL, apply_join,
      "SCENE... are the files of all parts: make their picture, of the bytes that one run makes"},
-    {0, "mpi", "[tiles|scene]", apply_mpi,
+    {0, "mpi", "[scene]", apply_mpi,
      "with mpirun: all ranks trace tiles of each picture, or draw frames of their own, and rank 0 writes; "
-     "the bytes do not depend on their number; tiles (default), or scene: each rank holds a part of the spheres"},
+     "the bytes do not depend on their number; with scene, each rank holds a part of its spheres"},
     {0, "mpi-read", "all|one", apply_mpi_read,
      "of --mpi: each rank reads the scene's files (default), or rank 0 alone, which sends it to the others"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
