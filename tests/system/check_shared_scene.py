@@ -13,7 +13,7 @@ import sys
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import tap  # noqa: E402
-from check_ranks import ENVIRONMENT, has_module, ranks  # noqa: E402
+from check_ranks import ENVIRONMENT, has_module, of_ranks, ranks  # noqa: E402
 from check_share import PROGRAM, Place  # noqa: E402
 
 LONG = "CHECK_LONG" in os.environ
@@ -108,6 +108,18 @@ def check_refused(test, place):
             file.write(HEAD + VIEW + text)
         found, said = place.run(*SIZE, *words, "--mpi=scene", "refused.scn", before=ranks(3))
         test.ok(found == code and expected in said and (said.count("error[") == 1 or name == "frames"), "%s: refused" % name, "exit %d\n%s" % (found, said))
+    with open(os.path.join(place.path, "many.scn"), encoding="utf-8") as file, \
+            open(os.path.join(place.path, "other.scn"), "w", encoding="utf-8") as other:
+        other.write(file.read()[:-3000].rsplit("\n", 1)[0] + "\n")
+    shared = "--mpi=scene"
+    of_ranks(test, place, "a rank with another scene", 2, "error[E0712]: rank 1 of 2 would draw another picture",
+             [shared, "loop.scn"], [shared, "few.scn"])
+    of_ranks(test, place, "a rank with less of the scene", 2, "error[E0712]: rank 2 of 3 would draw another picture",
+             [shared, "many.scn"], [shared, "many.scn"], [shared, "other.scn"])
+    of_ranks(test, place, "a rank without the scene", 3, "error[E0522]: rank 1 of 3 cannot read its part of the scene",
+             [shared, "many.scn"], [shared, "nowhere.scn"], [shared, "many.scn"])
+    of_ranks(test, place, "a rank whose text ends sooner", 3, "error[E0522]: rank 1 of 2 cannot read its part of the scene",
+             [shared, "many.scn"], [shared, "few.scn"])
     found, said = place.run("--mpi=rays", "few.scn")
     test.ok(found == 2 and "tiles or scene" in said, "--mpi=rays", said)
     found, said = place.run(*SIZE, "--mpi=scene", "nowhere.scn", before=ranks(2))
