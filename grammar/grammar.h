@@ -80,6 +80,14 @@ typedef enum GrammarTaken {
 typedef struct GrammarContext GrammarContext;
 typedef struct GrammarState GrammarState; // one parse
 
+// What a process has read of its pieces of a text, of which others read those between.
+typedef struct GrammarRound {
+    uint64_t begin, end;    // of the first statement and where the next one begins
+    uint64_t last, count;   // where the last one ends, and how many there are
+    uint64_t pieces;        // 0: none was this process's
+    uint64_t is_whole;      // all of its pieces were read
+} GrammarRound;
+
 // What the grammar asks of those who know what names stand for, and of plans.
 typedef struct GrammarHooks {
     void *client;
@@ -117,6 +125,12 @@ typedef struct GrammarHooks {
     bool (*plan_keep)(void *client, const void *records, size_t count, size_t more);
     int plan_threads;  // long runs of them are read on so many; 0 and 1: on the caller's alone
     size_t plan_piece; // bytes of text that each of these takes at a time; 0: as is best
+    // Where `plan_parts` > 1 processes read one text, each keeps the statements of its own pieces, which plan_keep gets.
+    // The others are passed, by their number. Then plan_exchange tells each what all have read in a round; false: one of
+    // them cannot continue, and the client stops.
+    int plan_part, plan_parts;
+    bool (*plan_pass)(void *client, size_t count);
+    bool (*plan_exchange)(void *client, const GrammarRound *own, GrammarRound *all);
 } GrammarHooks;
 
 // Everything a parse needs; plain data, filled by the caller, shared by nested parses (#include).

@@ -19,6 +19,7 @@
 enum {
     PIECE_BYTES = 1 << 20,
     PIECE_BYTES_ALONE = 256 << 10, // of one thread: text and statements stay in its cache
+    PIECES_SHARED = 16,            // of such, that each of several processes reads between two talks
     READERS_MOST = 64,
     STATEMENT_LEAST = 16, // bytes; `sphere{<0,0,0>,1}` has 17
     WORD_LONGEST = 32,
@@ -40,6 +41,8 @@ typedef struct Readers {
     uint64_t begin, end; // of the first piece and the source
     size_t bytes;        // of a piece
     int count;           // pieces that there is room for, or text
+    int first;           // number of the first, where other processes read those before
+    GrammarRound *rounds; // of all processes, where there are others
     Piece pieces[READERS_MOST];
 } Readers;
 
@@ -119,7 +122,7 @@ static void readers_work(void *client, size_t begin, size_t end)
     const Source *source = readers->state->source;
     for (size_t i = begin; i < end; i++) {
         Piece *piece = &readers->pieces[i];
-        uint64_t offset = readers->begin + i * readers->bytes, left = readers->end - offset;
+        uint64_t offset = readers->begin + ((uint64_t)readers->first + i) * readers->bytes, left = readers->end - offset;
         size_t wanted = readers->bytes + STATEMENT_LONGEST, length = left < wanted ? (size_t)left : wanted;
         piece->is_read = source_read_at(source, offset - source_base(source), piece->text, length);
         if (piece->is_read) {
@@ -135,6 +138,7 @@ static void readers_free(Readers *readers)
         free(readers->pieces[i].text);
         free(readers->pieces[i].records);
     }
+    free(readers->rounds);
     free(readers);
 }
 
@@ -183,7 +187,7 @@ static int pieces_fitting(const Readers *readers, bool *is_whole)
         if (count > 0 && piece->begin != readers->pieces[count - 1].end) {
             break;
         }
-        *is_whole = piece->end >= readers->begin + (uint64_t)(count + 1) * readers->bytes;
+        *is_whole = piece->end >= readers->begin + (uint64_t)(readers->first + count + 1) * readers->bytes;
         count++;
     }
     *is_whole = *is_whole && count == readers->count;
@@ -196,7 +200,8 @@ static bool piece_take(GrammarState *state, const Readers *readers, const Piece 
     const GrammarHooks *hooks = state->context->hooks;
     if (piece->count > 0) {
         uint64_t left = readers->end - piece->last, done = piece->last - piece->begin;
-        size_t more = (size_t)((double)piece->count * (double)left / (double)done);
+        double share = hooks->plan_parts > 1 ? 1.0 / hooks->plan_parts : 1.0;
+        size_t more = (size_t)(share * (double)piece->count * (double)left / (double)done);
         if (!hooks->plan_keep(hooks->client, piece->records, piece->count, more)) {
             return false;
         }
@@ -232,8 +237,116 @@ static bool read_round(GrammarState *state, Readers *readers)
     return is_whole;
 }
 
+// ---- several processes, each with pieces of its own
+
+static GrammarRound round_make(const Readers *readers)
+{
+    GrammarRound round = {.pieces = (uint64_t)readers->count};
+    bool is_whole = false;
+    int count = readers->count > 0 ? pieces_fitting(readers, &is_whole) : 0;
+    round.is_whole = is_whole;
+    for (int i = 0; i < count; i++) {
+        const Piece *piece = &readers->pieces[i];
+        round.begin = i == 0 ? piece->begin : round.begin;
+        round.count += piece->count;
+        round.last = piece->count > 0 ? piece->last : round.last;
+        round.end = piece->end;
+    }
+    return round;
+}
+
+// Takes this process's statements, in as many pieces as it has told of. False: they cannot be kept.
+static bool round_take(GrammarState *state, const Readers *readers)
+{
+    bool is_whole, is_kept = true;
+    int count = pieces_fitting(readers, &is_whole);
+    for (int i = 0; is_kept && i < count; i++) {
+        is_kept = piece_take(state, readers, &readers->pieces[i]);
+    }
+    return is_kept;
+}
+
+// Goes on behind what all have read, up to the first whose text did not begin where that of the one before ended. False:
+// that is not all, or nothing can be done any more.
+static bool rounds_take(GrammarState *state, const Readers *readers)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    uint64_t end = 0;
+    bool is_whole = true;
+    for (int part = 0; is_whole && part < hooks->plan_parts && readers->rounds[part].pieces > 0; part++) {
+        const GrammarRound *round = &readers->rounds[part];
+        if (part > 0 && round->begin != end) {
+            return false;
+        }
+        bool is_taken = part == hooks->plan_part ? round_take(state, readers)
+                                                 : hooks->plan_pass(hooks->client, round->count);
+        if (!is_taken) {
+            state->client_ended = state->ended = true; // the others have read on: nothing can be read again
+            return false;
+        }
+        if (round->count > 0) {
+            statements_pass(state, '}', round->last);
+        }
+        state->offset = end = round->end;
+        is_whole = round->is_whole;
+    }
+    return is_whole;
+}
+
+static bool read_shared_round(GrammarState *state, Readers *readers)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    readers->begin = state->offset;
+    int all = pieces_left(readers->end, readers->begin, readers->bytes, PIECES_SHARED * hooks->plan_parts);
+    readers->first = PIECES_SHARED * hooks->plan_part;
+    readers->count = all - readers->first < PIECES_SHARED ? all - readers->first : PIECES_SHARED;
+    readers->count = readers->count < 0 ? 0 : readers->count;
+    if (all == 0) {
+        return false;
+    }
+    int threads = hooks->plan_threads < 1 ? 1 : hooks->plan_threads;
+    parallel_share(threads, (size_t)readers->count, 1, readers_work, readers);
+    GrammarRound own = round_make(readers);
+    if (!hooks->plan_exchange(hooks->client, &own, readers->rounds)) {
+        state->client_ended = state->ended = true;
+        return false;
+    }
+    return rounds_take(state, readers);
+}
+
+// As statements_read_many: all processes come to the same end.
+static bool read_shared(GrammarState *state)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    uint64_t before = state->offset;
+    size_t bytes = hooks->plan_piece > 0 ? hooks->plan_piece : PIECE_BYTES_ALONE;
+    if (pieces_left(source_extent(state->source).end, before, bytes, 1) == 0) {
+        return false;
+    }
+    Readers *readers = readers_new(state, bytes, PIECES_SHARED);
+    if (readers != NULL) {
+        readers->rounds = malloc((size_t)hooks->plan_parts * sizeof *readers->rounds);
+    }
+    if (readers == NULL || readers->rounds == NULL) {
+        state->client_ended = state->ended = true; // the others read on
+        readers = readers == NULL ? NULL : (readers_free(readers), NULL);
+        return false;
+    }
+    while (read_shared_round(state, readers)) {
+    }
+    readers_free(readers);
+    if (state->offset == before) {
+        return false;
+    }
+    grammar_scan_seek(state, state->offset);
+    return true;
+}
+
 bool statements_read_many(GrammarState *state)
 {
+    if (state->context->hooks->plan_parts > 1) {
+        return read_shared(state);
+    }
     const GrammarHooks *hooks = state->context->hooks;
     uint64_t before = state->offset;
     int threads = hooks->plan_threads < READERS_MOST ? hooks->plan_threads : READERS_MOST;

@@ -55,6 +55,7 @@ unit_programs = \
   tests/unit/test_trace_pixel \
   tests/unit/test_trace_parts \
   tests/unit/test_trace_csg \
+  tests/unit/test_trace_elsewhere \
   tests/unit/test_trace_shapes \
   tests/unit/test_torus \
   tests/unit/test_polynomial \
@@ -124,6 +125,8 @@ tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c $(trace_
 tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)
 tests_unit_test_csg_bounds_SOURCES = %D%/unit/test_csg_bounds.c $(trace_headers)
 tests_unit_test_csg_bounds_LDADD = $(UNIT_TRACE)
+tests_unit_test_trace_elsewhere_SOURCES = %D%/unit/test_trace_elsewhere.c $(trace_headers)
+tests_unit_test_trace_elsewhere_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_csg_SOURCES = %D%/unit/test_trace_csg.c $(trace_headers)
 tests_unit_test_trace_csg_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_parts_SOURCES = %D%/unit/test_trace_parts.c $(trace_headers)
@@ -300,6 +303,7 @@ test_scripts = \
   %D%/system/check_rerun.py \
   %D%/system/check_share.py \
   %D%/system/check_ranks.py \
+  %D%/system/check_shared_scene.py \
   %D%/system/check_install.py \
   %D%/system/check_python.py \
   %D%/system/check_strip.py \
@@ -447,6 +451,7 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) EXPORTERS_LONG=1 $(PYTHON3) $(top_srcdir)/tests/povray/check_exporters.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_share.py kills 1000
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_ranks.py
+	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_shared_scene.py
 	TURNS=3000 tests/unit/test_partial$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
 

@@ -547,6 +547,11 @@ RT_API rt_status rt_read_command(rt_session *session, const char *path, const ch
 /* Ranks of MPI, which share the tiles of each picture that is rendered from here on: each of them loads the same scene and
  * makes the same calls, and rank 0 has the picture. Loads the module for MPI, which begins it once a process. */
 RT_API rt_status rt_join_ranks(rt_session *session, int *rank, int *ranks);
+/* Each rank keeps a part of the spheres of the scenes that are loaded from here on, and asks the others for what its rays
+ * meet: for scenes that are larger than a machine. RT_FAULT_USAGE without ranks, or once a scene is loaded. */
+RT_API rt_status rt_share_scene(rt_session *session);
+/* rt_load_file by rank 0 alone, which sends the scene to the others; called by all. Not with rt_share_scene. */
+RT_API rt_status rt_load_file_of_ranks(rt_session *session, const char *path);
 /* After the scene is loaded, or could not be, with `status`; called by all ranks. RT_OK where each is ready to render the
  * same picture; else what the worst has, and rank 0 reports the first rank that is not, *first. */
 RT_API rt_status rt_agree_with_ranks(rt_session *session, rt_status status, int *first);
@@ -564,8 +569,9 @@ typedef struct rt_budget {
     uint64_t picture;  /* the film */
     uint64_t limit;    /* of all together: RT_LIMIT_MEMORY */
 } rt_budget;
-/* What rt_render will need, reported before it is spent. RT_FAULT_USAGE when no scene is loaded. */
-RT_API rt_status rt_get_budget(const rt_session *session, rt_budget *budget);
+/* What rt_render will need, reported before it is spent. RT_FAULT_USAGE when no scene is loaded. Of a scene that ranks
+ * share: what the one needs that needs most; called by all, also where it could not be loaded. */
+RT_API rt_status rt_get_budget(rt_session *session, rt_budget *budget);
 
 /* What was done and how long it took. */
 typedef struct rt_summary {

@@ -4,24 +4,27 @@
 //
 // SPDX-License-Identifier: MIT
 #include "api/session.h"
+#include "trace/elsewhere.h"
 
 // What the tree takes for a shape, and the prepared forms of the records as a multiple of these: bounds that hold for
-// a million spheres (95 bytes each in all), stretched spheres (370 in the tree), boxes (460) and differences (910). Plain
-// spheres and their materials have no other form than that in the tree.
+// a million spheres (95 bytes each in all), stretched spheres (370 in the tree), boxes (460) and differences (910).
+// Plain spheres and their materials have no other form than that in the tree.
 enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
 
 static rt_budget budget_of(const rt_session *session)
 {
     const Scene *records = &session->scene;
     uint64_t scene = scene_bytes(records), pictures = scene_picture_bytes(records);
-    uint64_t plain = records->spheres.capacity * sizeof(Sphere) +
-                     records->sphere_runs.capacity * sizeof(SphereRun) + records->materials.capacity * sizeof(Material);
-    uint64_t objects = session->scene.shape_count;
+    uint64_t plain = records->spheres.capacity * sizeof(Sphere) + records->sphere_runs.capacity * sizeof(SphereRun) +
+                     records->materials.capacity * sizeof(Material);
+    bool is_shared = session->sharing.has_scene;
+    uint64_t objects = session->scene.shape_count, held = is_shared ? scene_shapes_in_all(records) : objects;
+    uint64_t met = is_shared ? geometry_share_bytes(session->threads) : 0; // of other ranks' shapes
     int width = session_film_width(session), height = session_film_height(session);
     return (rt_budget){
         .objects = objects,
         .scene = scene,
-        .prepared = (scene - pictures - plain) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
+        .prepared = (scene - pictures - plain) * PREPARED_PER_RECORD + held * TREE_BYTES_PER_SHAPE + met,
         .picture = film_bytes(width, height, session_is_sampled(session), session_film_planes(session)) +
                    (session_is_sampled(session) && objects > 0
                         ? small_bytes(width, height, objects) + share_bytes(width, height, objects)
@@ -31,8 +34,11 @@ static rt_budget budget_of(const rt_session *session)
     };
 }
 
-rt_status rt_get_budget(const rt_session *session, rt_budget *budget)
+rt_status rt_get_budget(rt_session *session, rt_budget *budget)
 {
+    if (session->sharing.has_scene) {
+        return session_scene_budget(session, session->loaded ? budget_of(session) : (rt_budget){0}, budget);
+    }
     if (!session->loaded) {
         return RT_FAULT_USAGE;
     }

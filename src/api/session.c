@@ -253,6 +253,7 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
                      : session->loaded            ? session_note_slice
                                                   : session_note_statement,
         .declared = &session->names_declared,
+        .share = session_scene_reading(session),
         .cancel = &session->cancel,
         .message = forward_message,
         .client = session,
@@ -265,6 +266,10 @@ static bool check_whole(rt_session *session, bool has_new_shapes)
 {
     const Scene *scene = &session->scene;
     scene_keep_survey(&session->scene, session_load_threads(session));
+    if (session->sharing.has_scene) { // the ranks will tell the rest together
+        return scene_validate_share(scene, &session->diags, session_load_threads(session)) &&
+               session->diags.error_count == 0;
+    }
     bool fine = (has_new_shapes ? scene_validate(scene, &session->diags, session_load_threads(session))
                                 : scene_validate_view(scene, &session->diags, session_load_threads(session))) &&
                 session->diags.error_count == 0;
@@ -288,7 +293,13 @@ static rt_status load(rt_session *session, void *argument)
     Scene *scene = &session->scene;
     session->frames.source = source_map_count(session->sources) - 1; // opened last
     scene->whole = SPAN_WHOLE(source_base(source));
-    bool fine = session_evaluate(session, source, scene, session->is_built ? scene->settings.version : 0.0) &&
+    if (session->sharing.has_scene) {
+        scene->share = (SceneShare){.part = (uint32_t)session->sharing.ranks.rank,
+                                    .parts = (uint32_t)session->sharing.ranks.ranks};
+    }
+    bool fine = session_evaluate(session, source, scene, session->is_built ? scene->settings.version : 0.0);
+    scene_end_share(scene);
+    fine = fine &&
                 (session->is_built || check_whole(session, true)) && session_load_pictures(session, scene);
     picture_reader_end(&session->reader);
     diag_finish(&session->diags);
@@ -501,7 +512,11 @@ static rt_status render_scene(rt_session *session, void *argument)
                                 .cancel = &session->cancel};
     OverlayOptions overlay = session->overlay;
     overlay_find_reach(&overlay, &session->scene);
+    geometry.is_shared = session->sharing.has_scene;
+    geometry.has_clear = session->sharing.has_clear;
+    geometry.kept = geometry.is_shared ? NULL : geometry.kept;
     Prepared *prepared = prepared_new(&session->scene, &geometry);
+    session_scene_ask(session, prepared);
     Film *film = &session->film;
     if (!prepared || !film_init(film, session_film_width(session), session_film_height(session),
                                 session_film_planes(session))) {
@@ -607,7 +622,7 @@ rt_status rt_render(rt_session *session, int threads)
     Settings *settings = &session->scene.settings;
     int max_trace_level = settings->max_trace_level;
     settings->max_trace_level = session->max_trace_level > 0 ? session->max_trace_level : max_trace_level;
-    Vec3 origin = scene_recentre(&session->scene);
+    Vec3 origin = session_scene_recentre(session);
     session->kept.is_elsewhere = session->kept.is_elsewhere || !vec3_equal(origin, session->kept_origin);
     session->kept_origin = origin;
     status = session_run_deep(session, render_scene, &threads);

@@ -75,6 +75,14 @@ typedef struct SessionSharing {
     Alone alone;
     bool has_ranks;
     Ranks ranks;
+    bool is_sent;   // the scene came from rank 0, with …
+    size_t file_count; // … what tells its files apart
+    unsigned char files[DIGEST_BYTES];
+    bool has_scene; // each rank has a part of it: see scene_share.c
+    bool has_clear; // of which, together, something lets light through
+    bool has_read;  // the ranks have ended reading, together
+    EvalShare share;
+    TileAsking asking;
 } SessionSharing;
 
 struct rt_session {
@@ -242,6 +250,24 @@ static inline bool session_is_sampled(const rt_session *session)
     SamplingOptions sampling = session_sampling(session);
     return sampling_is_wanted(&sampling);
 }
+
+// How ranks read a scene of which each keeps a part; NULL: this one has all of it.
+const EvalShare *session_scene_reading(rt_session *session);
+// This rank has read the scene, or could not. Called by all ranks; false: one of them has failed meanwhile, reported.
+bool session_scene_read(rt_session *session);
+// What each rank has, `length` bytes, one after the other; to be freed. Called by all ranks.
+void *session_scene_gather(rt_session *session, const void *own, size_t length);
+// Tells of the scene what only all its spheres together can; called by all ranks.
+bool session_scene_tell(rt_session *session);
+// The greatest of all ranks' budgets; {0} where the scene could not be loaded.
+rt_status session_scene_budget(rt_session *session, rt_budget own, rt_budget *greatest);
+// Of a scene of which each rank has a part: what refuses it and what all ranks must know of it. Called by all ranks once
+// it is loaded; false: reported.
+bool session_scene_agree(rt_session *session);
+// The scene put near the origin as scene_recentre does, by all its spheres; called by all ranks.
+Vec3 session_scene_recentre(rt_session *session);
+// What rays ask of a prepared scene.
+void session_scene_ask(rt_session *session, const Prepared *prepared);
 
 // About how many rays go through the pixels of the next picture.
 double session_camera_rays(const rt_session *session);

@@ -85,7 +85,7 @@ rt_status rt_worst_of_ranks(rt_session *session, rt_status status)
         ranks->module->stop(RT_FAULT_LIMIT);
         return RT_FAULT_LIMIT;
     }
-    ranks->module->gather(&own, all);
+    ranks->module->gather(&own, all, sizeof own);
     for (int i = 0; i < ranks->ranks; i++) {
         worst = all[i] > worst ? all[i] : worst;
     }
@@ -171,7 +171,10 @@ static bool make_head(const rt_session *session, PartialHead *head)
     const SessionSharing *sharing = &session->sharing;
     unsigned char digest[DIGEST_BYTES] = {0};
     char text[DIGEST_TEXT], files[DIGEST_TEXT + 32] = "", part[32] = "";
-    size_t count = source_map_digest(session->sources, digest);
+    size_t count = sharing->is_sent ? sharing->file_count : source_map_digest(session->sources, digest);
+    if (sharing->is_sent) {
+        memcpy(digest, sharing->files, sizeof digest);
+    }
     if (count > 0) {
         digest_text(digest, text);
         snprintf(files, sizeof files, "%zu, %s", count, text);
@@ -421,6 +424,9 @@ rt_status rt_agree_with_ranks(rt_session *session, rt_status status, int *first)
     if (!sharing->has_ranks) {
         return status;
     }
+    if (sharing->has_scene && !session_scene_read(session)) {
+        status = status ? status : session_status(session, false);
+    }
     if (!status && !share_is_possible(session)) {
         status = session_status(session, false);
     }
@@ -432,7 +438,11 @@ rt_status rt_agree_with_ranks(rt_session *session, rt_status status, int *first)
         report_rank(session, rank, differs, &sharing->store.head);
         status = session_status(session, false);
     }
-    return rt_worst_of_ranks(session, status);
+    status = rt_worst_of_ranks(session, status);
+    if (!status && sharing->has_scene) {
+        status = rt_worst_of_ranks(session, session_status(session, session_scene_agree(session)));
+    }
+    return status;
 }
 
 rt_status session_sharing_begin(rt_session *session)

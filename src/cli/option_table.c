@@ -490,8 +490,16 @@ static bool apply_part(Options *options, const char *argument, OptionReading *re
 
 static bool apply_mpi(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)reading;
-    return options->has_mpi = true;
+    reading->expected = "tiles or scene";
+    options->shares_scene = argument && strcmp(argument, "scene") == 0;
+    return options->has_mpi = !argument || options->shares_scene || strcmp(argument, "tiles") == 0;
+}
+
+static bool apply_mpi_read(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "all or one";
+    options->has_one_reader = strcmp(argument, "one") == 0;
+    return options->has_one_reader || strcmp(argument, "all") == 0;
 }
 
 static bool apply_join(Options *options, const char *argument, OptionReading *reading)
@@ -700,9 +708,11 @@ static const OptionRow rows[] = {
     {0, "part", "I/N", apply_part, "trace part I of N of the picture, 1 to N, into PICTURE.part-I-of-N, for --join"},
     {0, "join", NULL, apply_join,
      "SCENE... are the files of all parts: make their picture, of the bytes that one run makes"},
-    {0, "mpi", NULL, apply_mpi,
+    {0, "mpi", "[scene]", apply_mpi,
      "with mpirun: all ranks trace tiles of each picture, or draw frames of their own, and rank 0 writes; "
-     "the bytes do not depend on their number"},
+     "the bytes do not depend on their number; with scene, each rank holds a part of its spheres"},
+    {0, "mpi-read", "all|one", apply_mpi_read,
+     "of --mpi: each rank reads the scene's files (default), or rank 0 alone, which sends it to the others"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {0, "header", "FILE", apply_header, "include FILE before the scene's first statement"},
     {0, "no-povray-includes", NULL, apply_no_povray_includes,

@@ -89,6 +89,8 @@ struct Options {
     double max_time; // seconds of the whole run; 0: as many as it takes
     bool is_untrusted, is_unconfined, has_no_readers;
     bool has_mpi;        // ranks share the picture, or deal frames
+    bool has_one_reader; // rank 0 reads the scene and sends it
+    bool shares_scene;   // each has a part of the scene
     int rank, ranks;     // once they are known; 0 of 0: there are none
     int part, parts;     // of the picture; 0 of 0: all of it
     bool joins;          // the scenes are files of parts

@@ -157,7 +157,11 @@ static rt_status budget(rt_session *session, const Options *options)
     rt_budget b = {0};
     char text[512];
     rt_status status = rt_load_file(session, options->scene);
-    status = status ? status : rt_get_budget(session, &b);
+    rt_status got = status && !options->shares_scene ? status : rt_get_budget(session, &b);
+    status = status ? status : got;
+    if (options->rank > 0) {
+        return status; // rank 0 has what the greatest needs
+    }
     snprintf(text, sizeof text,
              "objects          %15llu\n"
              "scene, bytes     %15llu\n"
@@ -373,6 +377,12 @@ static rt_status draw(rt_session *session, Options *options, const char *output,
     return !status && options->rerun ? compare_again(session, options, voice) : status;
 }
 
+static rt_status load_scene(rt_session *session, const Options *options)
+{
+    bool is_sent = share_has_ranks(options) && options->has_one_reader;
+    return is_sent ? rt_load_file_of_ranks(session, options->scene) : rt_load_file(session, options->scene);
+}
+
 static rt_status render(rt_session *session, Options *options, Voice *voice)
 {
     char name[OUTPUT_NAME];
@@ -385,7 +395,7 @@ static rt_status render(rt_session *session, Options *options, Voice *voice)
     if (!status && options->keeps_scene) {
         status = rt_expect_frames(session);
     }
-    status = status ? status : rt_load_file(session, options->scene);
+    status = status ? status : load_scene(session, options);
     status = status ? status : rt_set_method(session, options->method, options->photons);
     status = share_agree(session, options, voice, status);
     if (status) {
@@ -546,6 +556,9 @@ rt_status run(rt_session *session, Options *options, Voice *voice)
     };
     int rank, ranks;
     rt_status status = share_has_ranks(options) ? rt_join_ranks(session, &rank, &ranks) : RT_OK;
+    if (!status && options->shares_scene) {
+        status = rt_share_scene(session);
+    }
     if (share_has_ranks(options)) {
         voice_hold(voice); // until the ranks agree
     }

@@ -33,7 +33,8 @@ static bool is_stream(const char *name)
 static OptionsResult settle_mpi(Options *options)
 {
     OptionReading *reading = &options->reading;
-    if (options->action != ACTION_RENDER || options->rerun || options->joins || options->parts > 0) {
+    bool is_possible = options->action == ACTION_RENDER || (options->action == ACTION_BUDGET && options->shares_scene);
+    if (!is_possible || options->rerun || options->joins || options->parts > 0) {
         return option_complain(reading, "`--mpi` is for drawing pictures, without `--part`, `--join` and `--rerun`");
     }
     if (options->is_untrusted) {
@@ -44,6 +45,12 @@ static OptionsResult settle_mpi(Options *options)
             return option_complain(reading, "`--mpi` wants the scene in a file, which each rank reads");
         }
     }
+    if (options->shares_scene && options->frames.step) {
+        return option_complain(reading, "`--mpi=scene` is for one picture: frames are dealt by `--mpi`");
+    }
+    if (options->has_one_reader && (options->shares_scene || options->frames.step)) {
+        return option_complain(reading, "`--mpi-read=one` is for one picture, of a scene that each rank holds");
+    }
     if (options->frames.step && is_stream(options->output)) {
         return option_complain(reading, "`--mpi` deals frames over ranks: each wants a file of its own");
     }
@@ -53,10 +60,13 @@ static OptionsResult settle_mpi(Options *options)
 
 OptionsResult share_settle(Options *options)
 {
+    OptionReading *reading = &options->reading;
+    if (options->has_one_reader && !options->has_mpi) {
+        return option_complain(reading, "`--mpi-read` is of `--mpi`");
+    }
     if (options->has_mpi && settle_mpi(options) != OPTIONS_GO) {
         return OPTIONS_WRONG;
     }
-    OptionReading *reading = &options->reading;
     bool is_part = options->parts > 0, keeps = share_keeps(options);
     if (options->joins && (is_part || keeps)) {
         return option_complain(reading, "`--join` puts together what is traced: leave out `--part`, `--checkpoint` and "

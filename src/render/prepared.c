@@ -14,6 +14,7 @@
 #include "render/shade/inside.h"
 #include "render/shade/tile_light.h"
 #include "scene/range.h"
+#include "trace/elsewhere.h"
 #include "trace/kept.h"
 
 static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
@@ -248,7 +249,8 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
     }
     p->dome = scene->settings.sky_light;
     p->has_dome = !rgb_is_black(p->dome);
-    p->materials = scene->materials.items;
+    const Material *shared = geometry_materials(p->geometry);
+    p->materials = shared ? shared : scene->materials.items;
     p->compounds = scene->compounds.items;
     p->interiors = scene->interiors.items;
     p->scene = scene;
@@ -295,8 +297,11 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     p->near_light = SHADOW_NEAR * ldexp(scale.least_size, -exponent);
     p->crossings_max = 2 * ((uint64_t)scene->shape_count + scene->parts.count);
     prepare_lists(p, scene, exponent);
-    prepared_inside(p, p->camera.location, &p->start);
-    p->features = needed_features(p, scene, options->threads);
+    if (!options->is_shared) { // such scenes have nothing in which it counts
+        prepared_inside(p, p->camera.location, &p->start);
+    }
+    p->features = needed_features(p, scene, options->threads) |
+                  (options->is_shared && options->has_clear ? (unsigned)RENDER_TRANSPARENCY : 0);
     p->kernel = kernel_choose(p->features);
     p->tile_lights = tile_lights_choose(geometry_isa_name(p->geometry));
     p->points = sobol_kernel_choose(geometry_isa_name(p->geometry));

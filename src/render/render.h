@@ -16,6 +16,7 @@
 #include "render/inspect/planes.h"
 #include "render/records/film.h"
 #include "render/records/options.h"
+#include "render/records/tile_share.h"
 #include "render/sample/sample.h"
 #include "scene/scene.h"
 #include "trace/trace.h"
@@ -34,6 +35,9 @@ const char *prepared_kernel_name(const Prepared *prepared);
 // The TraceFeature and RenderFeature bits (trace/trace.h, render/records/kernel.h) that the scene needs.
 unsigned prepared_features(const Prepared *prepared);
 size_t prepared_geometry_bytes(const Prepared *prepared);
+
+// How threads ask other processes, of a scene that is shared (GeometryOptions.is_shared).
+TileAsking prepared_asking(const Prepared *prepared);
 
 // `error` is set when options->sampling is, and a cancelled run then leaves a picture, if each pixel has a sample
 // (error->samples > 0).

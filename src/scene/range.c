@@ -100,7 +100,6 @@ static const char *extent_name(const Extent *extent)
     return extent->part ? part_name(extent->part) : extent->what;
 }
 
-
 static Extent part_extent(const Part *part)
 {
     const Transform *map = &part->to_world;
@@ -241,8 +240,8 @@ static void census_visit(void *client, double size, double place, bool is_needed
 // The exponents at which the most is held, the nearest such run to `middle`.
 static ExponentRange exponents_of_most(const Scene *scene, int middle)
 {
-    Census census = {.needed = (int32_t)(scene->spheres.count + scene->planes.count +
-                                         scene->parts.count + scene->lights.count + 1)};
+    Census census = {
+        .needed = (int32_t)(scene->spheres.count + scene->planes.count + scene->parts.count + scene->lights.count + 1)};
     int64_t held = 0, most = -1;
     int nearest = INT_MAX;
     ExponentRange best = {0, 0}, run = {0, 0};
@@ -262,17 +261,31 @@ static ExponentRange exponents_of_most(const Scene *scene, int middle)
     return best;
 }
 
+static Lengths all_lengths(const Scene *scene, const SphereSurvey *spheres)
+{
+    Lengths all = {{0, 0}, true, (double)INFINITY, 0.0, (double)INFINITY};
+    if (isfinite(spheres->least_radius)) { // there are some, be they here or not
+        lengths_visit(&all, spheres->least_radius, spheres->greatest_place, true);
+        lengths_visit(&all, spheres->greatest_radius, spheres->greatest_place, true);
+    }
+    visit_others(scene, lengths_visit, &all);
+    return all;
+}
+
+bool scene_range_is_held(const Scene *scene, const SphereSurvey *spheres)
+{
+    bool is_all_held;
+    Lengths all = all_lengths(scene, spheres);
+    (void)lengths_middle(&all, &is_all_held);
+    return is_all_held;
+}
+
 // The scale of the whole scene. Where lengths span too much, that of the most of it that can be held, as if the rest
 // were not there.
 static SceneScale scale_with(const Scene *scene, const SphereSurvey *spheres)
 {
     bool is_all_held;
-    Lengths all = {{0, 0}, true, (double)INFINITY, 0.0, (double)INFINITY};
-    if (scene->spheres.count > 0) {
-        lengths_visit(&all, spheres->least_radius, spheres->greatest_place, true);
-        lengths_visit(&all, spheres->greatest_radius, spheres->greatest_place, true);
-    }
-    visit_others(scene, lengths_visit, &all);
+    Lengths all = all_lengths(scene, spheres);
     int middle = lengths_middle(&all, &is_all_held);
     if (is_all_held) {
         return (SceneScale){middle, all.least_size};
@@ -448,6 +461,13 @@ static void check_spheres(const Scene *scene, const SphereSurvey *survey, const 
         Extent extent = {sphere->radius, sphere->centre, scene_sphere_source(scene, i), "sphere", NULL};
         check_extent(watch, &extent, "it is not drawn");
     }
+}
+
+bool scene_range_tells(const Scene *scene, const SphereSurvey *survey, const SphereSurvey *some)
+{
+    int exponent = scale_with(scene, survey).exponent;
+    Watch watch = {NULL, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
+    return !nothing_to_tell(&watch, some->least_radius, some->greatest_radius, some->greatest_place);
 }
 
 void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags)

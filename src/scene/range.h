@@ -39,9 +39,15 @@ typedef struct SceneScale {
 // (The direction and screen of a perspective camera have no length that matters.)
 SceneScale scene_scale(const Scene *scene, int threads);
 
+// Whether all lengths of a scene fit one scale, of spheres that are surveyed elsewhere, too.
+bool scene_range_is_held(const Scene *scene, const SphereSurvey *spheres);
+
 // Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and
 // of lights and cameras beyond the range. One pass.
 void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags);
+
+// Whether that may tell anything of some of the spheres that are surveyed.
+bool scene_range_tells(const Scene *scene, const SphereSurvey *survey, const SphereSurvey *some);
 
 // Warns of equal shapes that some ray could see both of. Linear in the number of shapes. False when out of memory.
 bool scene_warn_of_coincident(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;

@@ -40,19 +40,31 @@ static void axis_add_plane(Axis *axis, int number, const Vec3 *normal, double di
     }
 }
 
-static bool axis_gains(const Scene *scene, int number)
+static void axis_add_spheres(Axis *axis, const Scene *scene, int number)
+{
+    for (size_t i = 0; axis->is_exact && i < scene->spheres.count; i++) {
+        axis_add(axis, coordinate_of(&scene->spheres.items[i].centre, number));
+    }
+}
+
+// `spheres`: what decides of them, where not all are here; or NULL.
+static bool axis_gains(const Scene *scene, int number, const RecentreAxis *spheres)
 {
     double origin = coordinate_of(&scene->camera.location, number);
     Axis axis = {origin, fabs(origin), 0.0, origin != 0.0};
+    if (spheres) {
+        axis.greatest = fmax(axis.greatest, spheres->greatest);
+        axis.left = spheres->left;
+        axis.is_exact = axis.is_exact && spheres->is_exact;
+    } else {
+        axis_add_spheres(&axis, scene, number);
+    }
     for (size_t i = 0; axis.is_exact && i < scene->lights.count; i++) {
         const Light *light = &scene->lights.items[i];
         axis_add(&axis, coordinate_of(&light->position, number));
         if (light->type != LIGHT_POINT) {
             axis_add(&axis, coordinate_of(&light->point_at, number));
         }
-    }
-    for (size_t i = 0; axis.is_exact && i < scene->spheres.count; i++) {
-        axis_add(&axis, coordinate_of(&scene->spheres.items[i].centre, number));
     }
     for (size_t i = 0; axis.is_exact && i < scene->planes.count; i++) {
         axis_add_plane(&axis, number, &scene->planes.items[i].normal, scene->planes.items[i].distance);
@@ -118,19 +130,48 @@ static bool has_places(const Scene *scene)
     return found;
 }
 
-Vec3 scene_recentre(Scene *scene)
+void scene_recentre_measure(const Scene *scene, RecentreAxis axes[3])
+{
+    for (int number = 0; number < 3; number++) {
+        double origin = coordinate_of(&scene->camera.location, number);
+        Axis axis = {origin, 0.0, 0.0, origin != 0.0};
+        axis_add_spheres(&axis, scene, number);
+        axes[number] = (RecentreAxis){axis.greatest, axis.left, axis.is_exact};
+    }
+}
+
+void scene_recentre_join(RecentreAxis axes[3], const RecentreAxis more[3])
+{
+    for (int number = 0; number < 3; number++) {
+        axes[number].greatest = fmax(axes[number].greatest, more[number].greatest);
+        axes[number].left = fmax(axes[number].left, more[number].left);
+        axes[number].is_exact = axes[number].is_exact && more[number].is_exact;
+    }
+}
+
+static Vec3 recentre(Scene *scene, const RecentreAxis *spheres)
 {
     Vec3 origin = {0.0, 0.0, 0.0};
     if (scene->compounds.count > 0 || scene->fogs.count > 0 || has_places(scene)) {
         return origin;
     }
-    origin.x = axis_gains(scene, 0) ? scene->camera.location.x : 0.0;
-    origin.y = axis_gains(scene, 1) ? scene->camera.location.y : 0.0;
-    origin.z = axis_gains(scene, 2) ? scene->camera.location.z : 0.0;
+    origin.x = axis_gains(scene, 0, spheres ? &spheres[0] : NULL) ? scene->camera.location.x : 0.0;
+    origin.y = axis_gains(scene, 1, spheres ? &spheres[1] : NULL) ? scene->camera.location.y : 0.0;
+    origin.z = axis_gains(scene, 2, spheres ? &spheres[2] : NULL) ? scene->camera.location.z : 0.0;
     if (!vec3_equal(origin, vec3(0.0, 0.0, 0.0))) {
         move(scene, vec3_neg(origin));
     }
     return origin;
+}
+
+Vec3 scene_recentre(Scene *scene)
+{
+    return recentre(scene, NULL);
+}
+
+Vec3 scene_recentre_share(Scene *scene, const RecentreAxis spheres[3])
+{
+    return recentre(scene, spheres);
 }
 
 void scene_move_back(Scene *scene, Vec3 origin)

@@ -11,6 +11,19 @@
 
 #include "scene/scene.h"
 
+// What decides of an axis.
+typedef struct RecentreAxis {
+    double greatest, left; // coordinates before and after
+    bool is_exact;
+} RecentreAxis;
+
+// Of the spheres of a part of a scene, and of two parts together.
+void scene_recentre_measure(const Scene *scene, RecentreAxis axes[3]);
+void scene_recentre_join(RecentreAxis axes[3], const RecentreAxis more[3]);
+
+// As scene_recentre, of a scene whose spheres are those measured, some of which are here.
+Vec3 scene_recentre_share(Scene *scene, const RecentreAxis spheres[3]);
+
 // Moves a valid scene; returns what was subtracted from all places, 0 along axes that stay.
 Vec3 scene_recentre(Scene *scene);
 

@@ -312,12 +312,43 @@ static bool add_run(Scene *scene, uint64_t source)
     return run_goes_on(scene, source) || ARRAY_PUSH(&scene->sphere_runs, run);
 }
 
+// ---- spheres that other processes keep
+
+enum { SHARE_RUN = 64 }; // spheres on end that one process keeps
+
+static bool is_elsewhere(const Scene *scene, uint32_t order)
+{
+    return scene->share.parts > 1 && order / SHARE_RUN % scene->share.parts != scene->share.part;
+}
+
+void scene_end_share(Scene *scene)
+{
+    if (scene->share.has_other) {
+        scene->spheres.count--;
+        scene->sphere_runs.count -=
+            scene->sphere_runs.items[scene->sphere_runs.count - 1].first == scene->spheres.count;
+        scene->share.has_other = false;
+    }
+}
+
+bool scene_pass_spheres(Scene *scene, size_t spheres)
+{
+    scene_end_share(scene);
+    if (spheres >= UINT32_MAX - scene->shape_count) {
+        return false;
+    }
+    scene->shape_count += (uint32_t)spheres;
+    return true;
+}
+
 bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex material, uint64_t source)
 {
     Sphere sphere = {centre, radius, material, (uint32_t)source};
+    scene_end_share(scene);
     if (scene->shape_count == UINT32_MAX || !add_run(scene, source) || !ARRAY_PUSH(&scene->spheres, sphere)) {
         return false;
     }
+    scene->share.has_other = is_elsewhere(scene, scene->shape_count);
     scene->shape_count++;
     return true;
 }
@@ -371,6 +402,7 @@ bool scene_materials_add_up(const Scene *scene)
 
 bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials)
 {
+    scene_end_share(scene);
     return spheres < UINT32_MAX - scene->shape_count && materials < MATERIAL_COMPOUND - scene->materials.count &&
            ARRAY_RESERVE(&scene->spheres, scene->spheres.count + spheres) &&
            ARRAY_RESERVE(&scene->sphere_runs, scene->sphere_runs.count + 1) &&

@@ -438,6 +438,12 @@ static inline void sphere_survey_add(SphereSurvey *survey, const SphereSurvey *m
     survey->is_valid = survey->is_valid && more->is_valid;
 }
 
+// Which spheres of a scene that is larger than one machine are kept here: of `parts` processes, this is number `part`.
+typedef struct SceneShare {
+    uint32_t part, parts; // 0 or 1 parts: all are
+    bool has_other;       // the last one is another's: it stays until the next shape, for who has added it
+} SceneShare;
+
 typedef struct Scene {
     Span whole; // the text it was made from, for messages about the scene as a whole
     Settings settings;
@@ -467,6 +473,7 @@ typedef struct Scene {
     ARRAY(Interior) interiors;
     ARRAY(Compound) compounds;
     ARRAY(Sphere) spheres;
+    SceneShare share; // of the spheres; shape_count and orders are those of the whole
     size_t surveyed;     // of them, the first so many are in the survey; who changes one says scene_spheres_change
     SphereSurvey survey;
     ARRAY(SphereRun) sphere_runs; // in their order; the first begins with the first sphere
@@ -574,6 +581,10 @@ bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials) RT_MU
 void scene_commit_spheres(Scene *scene, size_t spheres, uint64_t source);
 // So many materials are there behind the list's end, each unlike the one before, once materials add up.
 void scene_commit_materials(Scene *scene, size_t materials);
+// So many follow that another process keeps.
+bool scene_pass_spheres(Scene *scene, size_t spheres) RT_MUST_CHECK;
+// Once all shapes are there: none of another process is.
+void scene_end_share(Scene *scene);
 // Numbers of some spheres have changed.
 void scene_spheres_change(Scene *scene);
 // Room for materials of one's own, one after the other, from *first on: they may change later, so no other shape shares
@@ -618,6 +629,9 @@ bool scene_shape_is_key(uint64_t key);
 // Checks what only the whole scene can tell (a camera is missing, …) and what the renderer relies on. False when a
 // fault was reported; the renderer may then not be called. Many spheres are looked through on several threads.
 bool scene_validate(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
+
+// The same without what only all spheres together can tell.
+bool scene_validate_share(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
 
 // The same of a scene that was found valid, of which only camera and lights are others now.
 bool scene_validate_view(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;

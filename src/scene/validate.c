@@ -173,7 +173,7 @@ bool scene_validate_view(const Scene *scene, DiagSink *diags, int threads)
     return valid;
 }
 
-bool scene_validate(const Scene *scene, DiagSink *diags, int threads)
+bool scene_validate_share(const Scene *scene, DiagSink *diags, int threads)
 {
     SphereSurvey survey;
     warn_of_what_is_missing(scene, diags);
@@ -182,10 +182,16 @@ bool scene_validate(const Scene *scene, DiagSink *diags, int threads)
     valid = materials_are_valid(scene, diags, threads) && valid;
     valid = parts_are_valid(scene, diags) && valid;
     scene_survey_spheres(scene, threads, &survey);
-    valid = shapes_are_valid(scene, &survey, diags) && valid;
-    if (!valid) {
+    return shapes_are_valid(scene, &survey, diags) && valid;
+}
+
+bool scene_validate(const Scene *scene, DiagSink *diags, int threads)
+{
+    SphereSurvey survey;
+    if (!scene_validate_share(scene, diags, threads)) {
         return false;
     }
+    scene_survey_spheres(scene, threads, &survey);
     scene_warn_of_range(scene, &survey, diags);
     if (!scene_warn_of_coincident(scene, diags, threads) || !scene_warn_of_faces(scene, diags)) {
         diag_report(diags, DIAG_E0602, SPAN_NONE, "out of memory looking for shapes that coincide");

@@ -82,6 +82,18 @@ static bool sees_anything(const Scene *scene, const View *view)
     return is_seen;
 }
 
+size_t scene_first_seen(const Scene *scene)
+{
+    View view;
+    size_t i = 0;
+    view_init(&view, &scene->camera);
+    while (i < scene->spheres.count &&
+           !sees_ball(&view, scene->spheres.items[i].centre, scene->spheres.items[i].radius)) {
+        i++;
+    }
+    return i;
+}
+
 static Span camera_span(const Scene *scene)
 {
     return scene->has_camera ? scene->camera.span : scene->whole;

@@ -11,4 +11,7 @@
 // none of these is asked for.
 void scene_hint_of_view(const Scene *scene, int width, int height, DiagSink *diags);
 
+// The first sphere that such a camera sees, about; their number where there is none.
+size_t scene_first_seen(const Scene *scene);
+
 #endif

@@ -70,6 +70,25 @@ static void send_message(int to, const void *bytes, size_t length)
     MPI_Send((void *)bytes, (int)length, MPI_BYTE, to, MESSAGE_TAG, MPI_COMM_WORLD);
 }
 
+static void *post(int to, const void *bytes, size_t length)
+{
+    MPI_Request *request = malloc(sizeof *request);
+    if (request) {
+        MPI_Isend((void *)bytes, (int)length, MPI_BYTE, to, MESSAGE_TAG, MPI_COMM_WORLD, request);
+    }
+    return request;
+}
+
+static bool is_sent(void *posted)
+{
+    int is_done = 0;
+    MPI_Test(posted, &is_done, MPI_STATUS_IGNORE);
+    if (is_done) {
+        free(posted);
+    }
+    return is_done != 0;
+}
+
 static bool receive_message(int *from, unsigned char **bytes, size_t *length, bool *failed)
 {
     int is_there = 0, count = 0;
@@ -119,10 +138,10 @@ static void broadcast(void *bytes, size_t length)
     }
 }
 
-static void gather(const long long *own, long long *all)
+static void gather(const void *own, void *all, size_t length)
 {
     MPI_Request request;
-    MPI_Iallgather((void *)own, 1, MPI_LONG_LONG, all, 1, MPI_LONG_LONG, MPI_COMM_WORLD, &request);
+    MPI_Iallgather((void *)own, (int)length, MPI_BYTE, all, (int)length, MPI_BYTE, MPI_COMM_WORLD, &request);
     wait_for(&request);
 }
 
@@ -143,6 +162,8 @@ const MpiModule rtlang_mpi_module = {.version = MPI_MODULE_VERSION,
                                      .end = end,
                                      .stop = stop,
                                      .send = send_message,
+                                     .post = post,
+                                     .is_sent = is_sent,
                                      .receive = receive_message,
                                      .broadcast = broadcast,
                                      .gather = gather,

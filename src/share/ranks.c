@@ -11,8 +11,19 @@
 #include <string.h>
 #include <time.h>
 
-// The first byte of a message. From rank 0: TILES and END; to it: ASK, RESULT, STOP and BYE.
-typedef enum Word { WORD_ASK, WORD_TILES, WORD_RESULT, WORD_STOP, WORD_END, WORD_BYE } Word;
+// The first byte of a message. From rank 0: TILES, END and OVER; to it: ASK, RESULT, STOP and BYE. Between any two,
+// where each has a part of the scene: QUESTION and ANSWER.
+typedef enum Word {
+    WORD_ASK,
+    WORD_TILES,
+    WORD_RESULT,
+    WORD_STOP,
+    WORD_END,
+    WORD_BYE,
+    WORD_OVER,
+    WORD_QUESTION,
+    WORD_ANSWER
+} Word;
 
 enum {
     TILES_AT_ONCE = 32,
@@ -25,7 +36,8 @@ enum {
 bool ranks_init(Ranks *ranks, const MpiModule *module, int rank, int count)
 {
     *ranks = (Ranks){.module = module, .rank = rank, .ranks = count};
-    return pthread_mutex_init(&ranks->lock, NULL) == 0;
+    return asking_init(&ranks->asking, module, rank, count, WORD_QUESTION, WORD_ANSWER) &&
+           pthread_mutex_init(&ranks->lock, NULL) == 0;
 }
 
 static void results_clear(RankTiles *results)
@@ -42,6 +54,7 @@ void ranks_fini(Ranks *ranks)
     ARRAY_FREE(&ranks->results);
     free(ranks->is_here);
     free(ranks->queue);
+    asking_fini(&ranks->asking);
     pthread_mutex_destroy(&ranks->lock);
 }
 
@@ -147,10 +160,14 @@ static int hear_all(Ranks *ranks, bool *heard)
     unsigned char *bytes;
     size_t length;
     bool failed = false;
+    *heard = asking_send(&ranks->asking) || *heard;
     while (ranks->module->receive(&from, &bytes, &length, &failed)) {
+        *heard = true;
+        if (asking_take(&ranks->asking, from, bytes, length)) {
+            continue;
+        }
         goodbyes += hear(ranks, from, bytes, length);
         free(bytes);
-        *heard = true;
     }
     pthread_mutex_lock(&ranks->lock);
     ranks->has_failed = ranks->has_failed || failed;
@@ -165,13 +182,16 @@ static void end_pass(Ranks *ranks)
     for (int to = 1; to < ranks->ranks; to++) {
         send_numbers(ranks, to, WORD_END, &is_stopped, 1);
     }
-    while (goodbyes < ranks->ranks - 1) {
+    while (goodbyes < ranks->ranks - 1 || !asking_is_quiet(&ranks->asking)) {
         bool heard = false;
         goodbyes += hear_all(ranks, &heard);
         looks = heard ? 0 : looks;
         if (!heard) {
             idle(&looks);
         }
+    }
+    for (int to = 1; ranks->asking.table && to < ranks->ranks; to++) {
+        send_numbers(ranks, to, WORD_OVER, NULL, 0);
     }
 }
 
@@ -196,6 +216,9 @@ static void serve_first(Ranks *ranks, void (*done)(void *run, int tiles), bool (
             idle(&looks);
         }
     }
+    pthread_mutex_lock(&ranks->lock);
+    ranks->is_over = true; // threads that answer others need not wait for more
+    pthread_mutex_unlock(&ranks->lock);
     end_pass(ranks);
 }
 
@@ -211,9 +234,8 @@ static bool send_results(Ranks *ranks, int *looks)
     pthread_mutex_unlock(&ranks->lock);
     *looks = ready.count > 0 ? 0 : *looks;
     for (size_t i = 0; i < ready.count; i++) { // each begins as a message does
-        ranks->module->send(0, text_get(&ready.items[i].bytes), ready.items[i].bytes.length);
+        asking_post(&ranks->asking, 0, (unsigned char *)ready.items[i].bytes.text, ready.items[i].bytes.length);
     }
-    results_clear(&ready);
     ARRAY_FREE(&ready);
     return failed;
 }
@@ -243,6 +265,38 @@ static void take_tiles(Ranks *ranks, const unsigned char *bytes, size_t length)
     pthread_mutex_unlock(&ranks->lock);
 }
 
+// Hears what others may still ask.
+static bool hear_questions(Ranks *ranks, int *looks)
+{
+    int from;
+    unsigned char *bytes;
+    size_t length;
+    bool failed = false, is_over = false;
+    if (!ranks->module->receive(&from, &bytes, &length, &failed)) {
+        idle(looks);
+    } else if (!asking_take(&ranks->asking, from, bytes, length)) {
+        is_over = bytes[0] == WORD_OVER;
+        free(bytes);
+    }
+    return is_over;
+}
+
+// All that is on its way arrives before this rank says goodbye.
+static void end_sending(Ranks *ranks)
+{
+    for (int looks = 0; !asking_is_quiet(&ranks->asking);) {
+        (void)asking_send(&ranks->asking);
+        (void)hear_questions(ranks, &looks);
+    }
+}
+
+// Where ranks ask each other, none may stop listening before nothing is on its way to it, which rank 0 says.
+static void wait_for_all(Ranks *ranks)
+{
+    for (int looks = 0; ranks->asking.table && !hear_questions(ranks, &looks);) {
+    }
+}
+
 static void serve_other(Ranks *ranks, bool (*stops)(void *run), void *run)
 {
     bool has_said = false, failed = false;
@@ -259,11 +313,15 @@ static void serve_other(Ranks *ranks, bool (*stops)(void *run), void *run)
             send_numbers(ranks, 0, WORD_ASK, NULL, 0);
             looks = 0;
         }
+        looks = asking_send(&ranks->asking) ? 0 : looks;
         if (!ranks->module->receive(&from, &bytes, &length, &failed)) {
             idle(&looks);
             continue;
         }
         looks = 0;
+        if (asking_take(&ranks->asking, from, bytes, length)) {
+            continue;
+        }
         if (bytes[0] == WORD_TILES) {
             take_tiles(ranks, bytes, length);
         } else if (bytes[0] == WORD_END) {
@@ -274,7 +332,9 @@ static void serve_other(Ranks *ranks, bool (*stops)(void *run), void *run)
         }
         free(bytes);
     }
+    end_sending(ranks);
     send_numbers(ranks, 0, WORD_BYE, NULL, 0);
+    wait_for_all(ranks);
 }
 
 // ---- the table
@@ -295,7 +355,8 @@ static int begin(void *client, int tiles, bool is_last)
     return known;
 }
 
-// Threads of others wait for tiles that were asked for; rank 0 has them at hand.
+// Threads of others wait for tiles that were asked for; rank 0 has them at hand. Where ranks ask each other, all stay
+// until the pass is over, and answer.
 static int next(void *client)
 {
     Ranks *ranks = client;
@@ -309,11 +370,40 @@ static int next(void *client)
             tile = ranks->queue[ranks->queue_begin++];
         }
         pthread_mutex_unlock(&ranks->lock);
-        if (tile >= 0 || is_over || ranks->rank == 0) {
+        if (tile >= 0 || is_over || (ranks->rank == 0 && (!ranks->asking.table || ranks->ranks == 1))) {
             return tile;
         }
-        idle(&looks);
+        if (!ranks->asking.table || !asking_help(&ranks->asking)) {
+            idle(&looks);
+        }
     }
+}
+
+static bool is_over(void *client)
+{
+    Ranks *ranks = client;
+    pthread_mutex_lock(&ranks->lock);
+    bool over = ranks->is_over || ranks->is_stopped || ranks->has_failed;
+    pthread_mutex_unlock(&ranks->lock);
+    return over;
+}
+
+static TileSettled settle(void *client)
+{
+    Ranks *ranks = client;
+    TileSettled settled = asking_settle(&ranks->asking, is_over, ranks);
+    if (settled == TILE_GIVEN_UP && !is_over(ranks)) {
+        pthread_mutex_lock(&ranks->lock);
+        ranks->has_failed = true; // else all would wait for the tile
+        pthread_mutex_unlock(&ranks->lock);
+    }
+    return settled;
+}
+
+void ranks_ask(Ranks *ranks, const TileAsking *asking)
+{
+    ranks->asking.table = asking;
+    ranks->table.settle = asking ? settle : NULL;
 }
 
 static void give(void *client, int tile, const unsigned char *bytes, size_t length)
@@ -412,7 +502,8 @@ static TileShareResult end(void *client, bool is_stopped, TileTake *take, void *
     Ranks *ranks = client;
     TextBuffer all;
     bool is_whole = true;
-    (void)is_stopped;
+    bool is_alone = ranks->ranks == 1; // else rank 0 has said so while it served
+    ranks->is_stopped = ranks->is_stopped || (is_alone && (is_stopped || ranks->has_failed || ranks->store->fault));
     if (ranks->is_stopped) {
         if (ranks->rank == 0) {
             store_flush(ranks->store);
@@ -452,7 +543,7 @@ void ranks_use(Ranks *ranks, Store *store)
 {
     ranks->store = store;
     ranks->table = (TileShare){.client = ranks,
-                               .serves = true,
+                               .serves = ranks->ranks > 1, // nobody is to be heard else
                                .begin = begin,
                                .next = next,
                                .give = give,
@@ -485,7 +576,7 @@ int ranks_agree(Ranks *ranks, bool ready, const PartialHead *head, PartialField 
         free(theirs);
     }
     own = ready ? own : PARTIAL_RESULTS;
-    ranks->module->gather(&own, all);
+    ranks->module->gather(&own, all, sizeof own);
     for (int i = 0; i < ranks->ranks && first < 0; i++) {
         if (all[i] != PARTIAL_FIELDS) {
             first = i;

@@ -11,6 +11,7 @@
 #include <pthread.h>
 
 #include "render/records/tile_share.h"
+#include "share/asking.h"
 #include "share/mpi_module.h"
 #include "share/store.h"
 
@@ -36,6 +37,7 @@ typedef struct Ranks {
     int *queue;             // others: tiles that are to be traced; owned
     int queue_begin, queue_end;
     bool is_asking, is_over, is_stopped, has_failed;
+    Asking asking;     // where each rank has a part of the scene
     RankTiles results; // rank 0: of all tiles; others: traced here and not yet sent
 } Ranks;
 
@@ -45,6 +47,9 @@ void ranks_fini(Ranks *ranks);
 
 // Before each picture. The store, which stays the caller's, is that of the picture's head.
 void ranks_use(Ranks *ranks, Store *store);
+
+// How threads ask others, where each rank has a part of the scene; NULL: each has all of it.
+void ranks_ask(Ranks *ranks, const TileAsking *asking);
 
 // What the ranks think of each other before a picture: whether each of them is `ready`, and has the head that rank 0
 // has. The first rank for which that does not hold, or -1; *differs: how, PARTIAL_RESULTS: it is not ready. All ranks

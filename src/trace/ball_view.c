@@ -28,8 +28,8 @@ typedef struct Extent {
 // Whether all of a thing is farther along a normal than `from`.
 static bool is_beyond(Vec3 normal, double from, Vec3 offset, const Extent *extent)
 {
-    double reach = fabs(normal.x) * extent->half.x + fabs(normal.y) * extent->half.y +
-                   fabs(normal.z) * extent->half.z + extent->radius;
+    double reach = fabs(normal.x) * extent->half.x + fabs(normal.y) * extent->half.y + fabs(normal.z) * extent->half.z +
+                   extent->radius;
     return vec3_dot(normal, offset) - reach > from;
 }
 
@@ -131,7 +131,7 @@ bool geometry_sees_ball(const Geometry *g, const SurfaceSpot *from, Vec3 centre,
     cone.radius = radius + cone.slack;
     cone.direction = vec3_scale(1.0 / cone.length, offset);
     cone.sine = cone.radius / cone.length;
-    if (!(cone.sine < 1.0) || g->shapes.unbounded_count > 0) {
+    if (!(cone.sine < 1.0) || g->shapes.unbounded_count > 0 || g->elsewhere) {
         return false;
     }
     cone.cosine = sqrt(1.0 - cone.sine * cone.sine);

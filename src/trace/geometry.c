@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "scene/part.h"
+#include "trace/elsewhere.h"
 #include "trace/kept.h"
 
 static bool planes_init(Geometry *geometry, const Scene *scene, int exponent)
@@ -124,7 +125,8 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
     }
     geometry->kernels = sphere_kernels_choose(options->isa);
     if (!geometry->kernels ||
-        !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent, options->cancel) ||
+        !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent,
+                           options->is_shared ? geometry_share_blocks(options->threads) : 0, options->cancel) ||
         !planes_init(geometry, scene, exponent) ||
         !shapes_init(&geometry->shapes, scene, exponent, options->threads, options->cancel) ||
         !coincident_init(geometry)) {
@@ -132,6 +134,10 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
         return NULL;
     }
     find_features(geometry);
+    if (options->is_shared && !geometry_share(geometry, scene, options->threads)) {
+        geometry_free(geometry);
+        return NULL;
+    }
     return geometry;
 }
 
@@ -143,6 +149,7 @@ Geometry *geometry_new(const Scene *scene, int exponent)
 void geometry_free(Geometry *geometry)
 {
     if (geometry) {
+        elsewhere_free(geometry->elsewhere);
         sphere_table_fini(&geometry->spheres);
         free(geometry->planes);
         shapes_fini(&geometry->shapes);
@@ -190,7 +197,7 @@ static bool kept_take_spheres(GeometryKept *kept, Follow *follow)
     kept->refit.in_root = 0.0;
     kept->refit.fits = 0;
     sphere_table_fini(spheres);
-    return sphere_table_init(spheres, follow->scene, follow->exponent, follow->threads, NULL, follow->cancel);
+    return sphere_table_init(spheres, follow->scene, follow->exponent, follow->threads, NULL, 0, follow->cancel);
 }
 
 // The rest as it is now.

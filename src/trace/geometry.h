@@ -25,7 +25,9 @@ struct Geometry {
     SphereTable spheres;
     PlaneEntry *planes;
     uint32_t plane_count;
-    ShapeTable shapes; // everything else
+    ShapeTable shapes;           // everything else
+    struct Elsewhere *elsewhere; // NULL: all spheres are here; else trace/elsewhere.h has them, and those above are
+                                 // what rays have met
 };
 
 #endif

@@ -61,6 +61,7 @@ typedef struct Maker {
     SphereRecords records; // of the scene
     double limit;    // spheres whose radius squared is above are large, and loose
     Chunk *chunks;
+    size_t spare;           // blocks behind those of the table
     Scene *spent;           // the scene, if its spheres may be given up
     BvhRef *refs;           // of the spheres for the tree; in `ref_pages`
     Pages ref_pages;
@@ -375,7 +376,7 @@ static bool maker_number_slots(Maker *maker, int threads)
 static bool maker_fill_blocks(Maker *maker, int threads)
 {
     SphereTable *table = maker->table;
-    if (!pages_take(&table->block_pages, table->block_count * sizeof(SphereBlock))) {
+    if (!pages_take(&table->block_pages, (table->block_count + maker->spare) * sizeof(SphereBlock))) {
         return false;
     }
     table->blocks = table->block_pages.memory;
@@ -413,15 +414,19 @@ void sphere_table_measure(SphereTable *table)
     }
 }
 
-bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent,
+bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent, size_t spare,
                        const atomic_bool *cancel)
 {
     *table = (SphereTable){0};
     if (scene->spheres.count == 0) {
         return true;
     }
-    Maker maker = {
-        .table = table, .scene = scene, .spent = spent, .records = sphere_records(scene, exponent), .cancel = cancel};
+    Maker maker = {.table = table,
+                   .scene = scene,
+                   .spent = spent,
+                   .spare = spare,
+                   .records = sphere_records(scene, exponent),
+                   .cancel = cancel};
     maker.chunks = malloc(chunk_count(&maker) * sizeof(*maker.chunks));
     bool done = maker.chunks && maker_make(&maker, threads);
     free(maker.chunks);

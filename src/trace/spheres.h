@@ -214,9 +214,9 @@ const SphereKernels *sphere_kernels_choose(const char *name);
 // The kernels in their order from plain to best, whether this processor has them or not; NULL past the end.
 const SphereKernels *sphere_kernels_at(size_t i);
 
-// All usable spheres of the scene, lengths times 2^-exponent; `spent` as in GeometryOptions. False when out of memory;
-// fini is to be called anyway.
-bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent,
+// All usable spheres of the scene, lengths times 2^-exponent; `spent` as in GeometryOptions. Behind the blocks there is
+// room for `spare` others, which no ray meets. False when out of memory; fini is to be called anyway.
+bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent, size_t spare,
                        const atomic_bool *cancel) RT_MUST_CHECK;
 void sphere_table_fini(SphereTable *table);
 

@@ -107,6 +107,8 @@ typedef struct GeometryOptions {
     const char *isa; // name of the instruction set to use; NULL for the best that this processor has
     Scene *spent;    // the scene itself, when nobody asks for its spheres later: they are freed as soon as the geometry
                      // has what it needs, and their list is empty then; NULL: they stay
+    bool is_shared;  // other processes have the rest of the spheres (trace/elsewhere.h); not with `kept`
+    bool has_clear;  // is_shared: one of all their spheres lets light through
     double rays;     // that it is made for, about, if it is kept
     const atomic_bool *cancel; // building is given up, as if memory had run out, when it is set; NULL: never
     GeometryKept *kept; // for prepared_new: what is taken from there, or put there and lives on; NULL: nothing

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Pictures that ranks share over MPI: the bytes of one process, for any number of ranks, which tell who fails.
 
-Prints TAP. SPDX-License-Identifier: MIT
+Without words all of it, in short, and with CHECK_LONG=1 at length; `kills N` kills a rank of N runs, at a random moment
+each. Prints TAP. SPDX-License-Identifier: MIT
 """
 import contextlib
 import os
@@ -51,6 +52,37 @@ def check_pictures(test, place):
                     "%s, %s: %d ranks" % (scene, " ".join(options) or "one ray", count), "exit %d\n%s" % (code, text))
             if place.bytes(name):
                 os.unlink(os.path.join(place.path, name))
+
+
+def check_read_one(test, place):
+    """Of files that rank 0 alone finds: the others run in an empty folder."""
+    with open(os.path.join(place.path, "more.inc"), "w", encoding="utf-8") as file:
+        file.write("sphere { <0, 2, 0>, 0.5 pigment { marble scale 0.2 } normal { bumps 0.4 } }\n"
+                   "difference { box { -0.4, 0.4 } sphere { 0, 0.5 } translate <-2, 1.5, 0> pigment { rgb x } }\n")
+    with open(os.path.join(place.path, "rich.scn"), encoding="utf-8") as file:
+        text = file.read()
+    with open(os.path.join(place.path, "sent.scn"), "w", encoding="utf-8") as file:
+        file.write(text + '#include "more.inc"\n#declare A = W0;\nsphere { <A, 1.5, 0>, 0.4 pigment { rgb y } }\n')
+    empty = os.path.join(place.path, "empty")
+    os.mkdir(empty)
+    for options in ([], ["--samples=16"], ["--target-error=0.02"]):
+        words = [*SIZE, "-D", "W0=2", *options]
+        place.run(*words, "-o", "one.png", "sent.scn")
+        command = ["mpirun", "--allow-run-as-root", "--oversubscribe"]
+        for rank in range(3):
+            command += [":"] * (rank > 0) + ["-n", "1", "--wdir", empty if rank else place.path, PROGRAM, *words, "--mpi",
+                                             "--mpi-read=one", "-o", "sent.png", "sent.scn"]
+        done = subprocess.run(command, cwd=place.path, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, timeout=120, check=False)
+        test.ok(done.returncode == 0 and place.bytes("sent.png") == place.bytes("one.png") and not os.listdir(empty),
+                "a scene that rank 0 alone has, %s" % (" ".join(options) or "one ray"), done.stderr.decode(errors="replace"))
+    with open(os.path.join(place.path, "shown.scn"), "w", encoding="utf-8") as file:
+        file.write('sphere { z * 3, 1 pigment { image_map { png "one.png" } } }\n')
+    for words, code, expected in ((["shown.scn"], 2, "error[E0714]: a scene that shows `one.png` cannot be sent"),
+                                  (["no.scn"], 3, "error[E0501]"),
+                                  (["--frames=1..2", "rich.scn"], 2, "`--mpi-read=one` is for one picture")):
+        found, text = place.run(*SIZE, "--mpi", "--mpi-read=one", *words, before=ranks(2))
+        test.ok(found == code and expected in text, "--mpi-read=one: %s" % words[-1], "exit %d\n%s" % (found, text))
 
 
 def check_error_map(test, place):
@@ -147,9 +179,14 @@ def main():
     why = has_module()
     if why:
         test.skip("ranks of MPI", why.splitlines()[0])
+    elif len(sys.argv) > 2 and sys.argv[1] == "kills":
+        place = Place()
+        check_kills(test, place, int(sys.argv[2]))
+        place.close()
     else:
         place = Place()
         check_pictures(test, place)
+        check_read_one(test, place)
         check_error_map(test, place)
         check_frames(test, place)
         check_faults(test, place)
@@ -158,4 +195,5 @@ def main():
     test.done()
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -163,6 +163,8 @@ void plan_watch_call(Eval *ev, const AstNode *call);
 // plan_many.c, see GrammarHooks
 extern const size_t plan_record_bytes;
 bool plan_prepare(const GrammarPlan *plan, const double *numbers, uint64_t begin, void *record) RT_MUST_CHECK;
+bool plan_pass(void *client, size_t count) RT_MUST_CHECK;
+bool plan_exchange(void *client, const GrammarRound *own, GrammarRound *all) RT_MUST_CHECK;
 bool plan_keep(void *client, const void *list, size_t count, size_t more) RT_MUST_CHECK;
 
 #endif

@@ -67,6 +67,20 @@ static bool reserve(Eval *ev, size_t spheres, size_t materials, size_t more)
     return scene_reserve_spheres(scene, spheres, materials) && memory_has(ev, 0);
 }
 
+bool plan_pass(void *client, size_t count)
+{
+    Eval *ev = client;
+    return scene_pass_spheres(ev->scene, count);
+}
+
+bool plan_exchange(void *client, const GrammarRound *own, GrammarRound *all)
+{
+    Eval *ev = client;
+    bool goes_on = ev->options.share->exchange(ev->options.client, own, all, sizeof *own);
+    ev->stop = ev->stop || !goes_on;
+    return goes_on;
+}
+
 bool plan_keep(void *client, const void *list, size_t count, size_t more)
 {
     Eval *ev = client;

@@ -52,6 +52,7 @@ static void begin_trial(Eval *ev, const AstNode *item, SchemaKind kind, PlanTria
         trial->plan = NULL;
         return;
     }
+    scene_end_share(ev->scene); // else the next sphere takes the place of another process's
     trial->shapes = ev->scene->shape_count;
     trial->spheres = ev->scene->spheres.count;
     trial->parts = ev->scene->parts.count;
@@ -337,4 +338,10 @@ void plan_hooks(Eval *ev, GrammarHooks *hooks)
     hooks->plan_keep = plan_keep;
     hooks->plan_threads = ev->options.threads;
     hooks->plan_piece = ev->options.literal_piece;
+    if (ev->options.share) {
+        hooks->plan_part = ev->options.share->part;
+        hooks->plan_parts = ev->options.share->parts;
+        hooks->plan_pass = plan_pass;
+        hooks->plan_exchange = plan_exchange;
+    }
 }

@@ -72,6 +72,13 @@ typedef struct EvalPainter {
     void (*close)(void *opened);
 } EvalPainter;
 
+// Where several processes read a scene, each keeping a part of its spheres.
+typedef struct EvalShare {
+    int part, parts; // of `parts`, this process is number `part`
+    // Gives all what each has, `length` bytes; false: one of them cannot continue, which is reported.
+    bool (*exchange)(void *client, const void *own, void *all, size_t length);
+} EvalShare;
+
 // What an evaluation is given. Pointers must stay valid during the call; nothing is owned.
 typedef struct EvalOptions {
     SourceMap *sources;
@@ -103,6 +110,7 @@ typedef struct EvalOptions {
     bool (*load_pictures)(void *client, Scene *scene); // of these; false after a fault; NULL: none are read
     void (*statement)(void *client, Span span); // each of the text itself, before it is evaluated; NULL: nobody asks
     EvalNames *declared;       // set in the end; may be NULL
+    const EvalShare *share;    // NULL: all spheres are kept here
     const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console
     // does. What #warning and #error say is a diagnostic. May be NULL.

@@ -22,6 +22,8 @@ typedef enum TileShareResult {
 // Takes the bytes that a tile left in the process that traced it; false where no tile can have left them.
 typedef bool TileTake(void *client, int tile, const unsigned char *bytes, size_t length);
 
+typedef enum TileSettled { TILE_SETTLED, TILE_AGAIN, TILE_GIVEN_UP } TileSettled;
+
 typedef struct TileShare {
     void *client;
     bool is_part; // most tiles are never handed over: what follows from all of them is left out
@@ -31,6 +33,9 @@ typedef struct TileShare {
     int (*begin)(void *client, int tiles, bool is_last);
     // A tile to be traced here; -1: there is none left. Called by any thread.
     int (*next)(void *client);
+    // Whether what the calling thread has traced of a tile follows from the whole scene, where processes share that: if
+    // not, it is known now and traced again. NULL: it always does.
+    TileSettled (*settle)(void *client);
     // What a tile left that was traced here. Called by any thread.
     void (*give)(void *client, int tile, const unsigned char *bytes, size_t length);
     // Runs in the thread that called tiles_run, while others trace, until `end` may be called; calls `done` now and
@@ -41,5 +46,20 @@ typedef struct TileShare {
     // The clock that all decide by, where this process's own shows `own` seconds.
     double (*seconds)(void *client, double own);
 } TileShare;
+
+// How a thread that traces asks other processes of the spheres that they have, as bytes that only the two ends know
+// (trace/elsewhere.h).
+typedef struct TileAsking {
+    void *client;
+    size_t question_bytes, answer_bytes;
+    // What the calling thread must know of others; 0: nothing. They stay until `learn`.
+    size_t (*questions)(void *client, const void **questions);
+    // The answers of all others, one list each, on end.
+    void (*learn)(void *client, const void *answers, size_t lists);
+    // False: it had to leave questions out.
+    bool (*forget)(void *client);
+    // Answers others. Called by threads that trace. False: more than were told of do.
+    bool (*answer)(void *client, const void *questions, size_t count, void *answers);
+} TileAsking;
 
 #endif

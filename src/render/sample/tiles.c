@@ -144,6 +144,21 @@ static bool is_to_stop_serving(void *client)
 
 // ---- threads
 
+// False: the tile is not done.
+static bool trace_tile(Run *run, int index, RenderScratch *scratch, RenderStatistics *counted)
+{
+    TileSettled settled;
+    do {
+        *counted = (RenderStatistics){0};
+        run->work->trace(run->work->client, tile_at(run, index), scratch, counted);
+        if (prepared_is_abandoned(run->work->prepared)) {
+            return false; // rays of the tile were left out
+        }
+        settled = run->share && run->share->settle ? run->share->settle(run->share->client) : TILE_SETTLED;
+    } while (settled == TILE_AGAIN);
+    return settled == TILE_SETTLED;
+}
+
 static void trace_tiles(void *client, int thread)
 {
     Run *run = client;
@@ -158,10 +173,9 @@ static void trace_tiles(void *client, int thread)
     }
     atomic_fetch_add(&run->tracing, 1);
     for (int index; !is_to_stop(run) && (index = next_tile(run)) >= 0;) {
-        RenderStatistics own = {0};
-        run->work->trace(run->work->client, tile_at(run, index), scratch, &own);
-        if (prepared_is_abandoned(run->work->prepared)) {
-            break; // rays of the tile were left out
+        RenderStatistics own;
+        if (!trace_tile(run, index, scratch, &own)) {
+            break;
         }
         statistics_add(&sum, &own);
         if (run->share) {

@@ -188,7 +188,8 @@ RT_ALWAYS_INLINE MediumStack shade_cross(const Prepared *p, unsigned features, S
     MediumStack behind = at->before;
     at->leaves = medium_leave(at->media, &behind, body);
     if (!at->leaves) {
-        bool is_solid = (features & RENDER_FOG) && !scene_is_hollow(p->scene, at->material);
+        bool has_fog = (features & RENDER_FOG) && p->scene->fogs.count > 0;
+        bool is_solid = has_fog && !scene_is_hollow(p->scene, at->material);
         behind = medium_enter(at->media, behind, (MediumRegion){body, at->interior, is_solid});
     }
     at->ior_ratio = medium_ior(p->interiors, at->media, behind) / medium_ior(p->interiors, at->media, at->before);
