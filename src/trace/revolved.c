@@ -260,7 +260,8 @@ static void cross_at(Turn *turn, const Arc *arc, double s, Half half)
     arc_at(arc, s, &square, &v);
     double w = sqrt(greater_of(square - turn->least2, 0.0)), a = turn_along(turn, v);
     bool is_plus = half == HALF_EITHER ? a >= 0.0 : half == HALF_PLUS;
-    bool by_radius = fabs(dy) * square <= w * turn->across * turn->size;
+    double size = arc->kind == ARC_SQUARE ? turn->size : sqrt(square); // what w is uncertain by, times w / size of the shape
+    bool by_radius = fabs(dy) * size < w * turn->across;
     double shadow = is_plus != (dy < 0.0) ? w : -w;
     double t = by_radius ? (shadow - turn->along) / turn->across : (v - turn->y) / dy;
     turn->crossings[turn->count++] = (Crossing){turn->t_base + t, turn->side};
@@ -282,7 +283,9 @@ static bool is_ordered(const Turn *turn, const Arc *arc)
     double low, high, steps[3], u_step[2], v_step[2], rise[2];
     span_of(arc->u, u_count, &low, &high);
     if (arc->kind != ARC_SQUARE && low < 0.0) {
-        return false; // rare
+        double least = high < 0.0 ? -high : 0.0;
+        high = greater_of(-low, high);
+        low = least;
     }
     bool is_square = arc->kind == ARC_SQUARE;
     double inner2 = (is_square ? low : low * low) - turn->least2, outer2 = (is_square ? high : high * high) - turn->least2;
@@ -324,6 +327,25 @@ static void take_ends(Turn *turn, const Arc *arc, Place first, Place last)
     }
 }
 
+// Of a level line, which q does not tell from a curve that only comes to its height: whether a part may come through it.
+static bool passes_height(const Arc *arc, const double a[4])
+{
+    bool passes = false;
+    for (unsigned i = 1; i < (arc->kind == ARC_CUBIC ? 4u : 2u); i++) {
+        passes = passes || (a[i] >= 0.0) != (a[0] >= 0.0);
+    }
+    return passes;
+}
+
+// Whether all of a part is nearer to y than the line is.
+static bool is_nearer(const Turn *turn, const Arc *arc)
+{
+    double low, high;
+    span_of(arc->u, arc->kind == ARC_LINE ? 2 : 4, &low, &high);
+    double most = greater_of(fabs(low), fabs(high));
+    return (arc->kind == ARC_SQUARE ? high : most * most) <= turn->least2;
+}
+
 static void arc_cross(Turn *turn, const Arc *arc, unsigned depth)
 {
     double a[4], q[FORM_MOST], most, greatest = 0.0;
@@ -333,7 +355,11 @@ static void arc_cross(Turn *turn, const Arc *arc, unsigned depth)
         greatest = greater_of(greatest, fabs(q[i]));
     }
     greatest = greater_of(greatest, fabs(q[count - 1]));
-    if (changes == 0) {
+    bool is_level = turn->dy * turn->dy == 0.0;
+    if (changes == 0 && (!is_level || !passes_height(arc, a))) {
+        return;
+    }
+    if (is_level && is_nearer(turn, arc)) {
         return;
     }
     if (changes == 1) {
