@@ -18,7 +18,11 @@
 #include "scene/superellipsoid.h"
 #include "trace/crossings.h"
 
-enum { STEPS_MOST = 100, DEPTH_MOST = 60, CROSSINGS_MOST = 2 * SUPERELLIPSOID_INTERVALS };
+// PLACES_MOST: what a line is asked at, at most; exponents that are no shapes any more ask for more.
+enum { STEPS_MOST = 100, DEPTH_MOST = 60, PLACES_MOST = 2000, CROSSINGS_MOST = 2 * SUPERELLIPSOID_INTERVALS };
+
+// Powers above this are the same.
+static const double POWER_MOST = 1e300;
 
 // What is beyond it is outside.
 static const double REACH = 1.0625;
@@ -31,7 +35,7 @@ typedef struct Line {
     double t_base, p, q;
     Way way;
     Crossing crossings[CROSSINGS_MOST];
-    uint32_t count;
+    uint32_t count, places;
 } Line;
 
 // The function at a place, and the two slopes whose difference is its own.
@@ -114,7 +118,7 @@ static void find_between(Line *line, Place first, Place last, unsigned depth)
     if (!changes && (is_ordered || stays(first, last, least, most))) {
         return;
     }
-    bool is_last = depth == DEPTH_MOST || !(first.t < middle && middle < last.t);
+    bool is_last = depth == DEPTH_MOST || ++line->places > PLACES_MOST || !(first.t < middle && middle < last.t);
     if (changes && (is_ordered || is_last)) {
         cross_at(line, is_last ? middle : root_between(line, first, last));
     } else if (!is_last) {
@@ -175,15 +179,15 @@ static void line_set(Line *line, Vec3 exponents, const Ray *ray, bool is_start)
 {
     Vec3 o = ray->origin, d = ray->direction;
     line->exponents = exponents;
-    line->p = 2.0 / exponents.x;
-    line->q = 2.0 / exponents.y;
+    line->p = less_of(2.0 / exponents.x, POWER_MOST);
+    line->q = less_of(2.0 / exponents.y, POWER_MOST);
     line->t_base = is_start ? 0.0 : -vec3_dot(o, d) / vec3_length_squared(d);
     line->o = is_start ? o : vec3_add_scaled(o, line->t_base, d);
     line->d = d;
     line->way = line->p >= 1.0 && line->q >= 1.0   ? WAY_CONVEX
                 : line->p <= 1.0 && line->q <= 1.0 ? WAY_CONCAVE
                                                    : WAY_MIXED;
-    line->count = 0;
+    line->count = line->places = 0;
 }
 
 // What of the line lies within the reach; of WAY_MIXED |z| is no more than 1.
