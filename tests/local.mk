@@ -62,6 +62,8 @@ unit_programs = \
   tests/unit/test_mesh \
   tests/unit/test_blob \
   tests/unit/test_prism \
+  tests/unit/test_revolved \
+  tests/unit/test_superellipsoid \
   tests/unit/test_scene \
   tests/unit/test_schema \
   tests/unit/test_ast \
@@ -145,6 +147,10 @@ tests_unit_test_polynomial_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
 tests/unit/test_polynomial.$(OBJEXT): src/study/optional.h
 tests_unit_test_prism_SOURCES = %D%/unit/test_prism.c $(unit_headers)
 tests_unit_test_prism_LDADD = $(UNIT_TRACE)
+tests_unit_test_revolved_SOURCES = %D%/unit/test_revolved.c $(unit_headers)
+tests_unit_test_revolved_LDADD = $(UNIT_TRACE)
+tests_unit_test_superellipsoid_SOURCES = %D%/unit/test_superellipsoid.c $(unit_headers)
+tests_unit_test_superellipsoid_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_tree_SOURCES = %D%/unit/test_trace_tree.c $(trace_headers)
 tests_unit_test_trace_tree_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_secondary_SOURCES = %D%/unit/test_trace_secondary.c $(trace_headers)
@@ -428,9 +434,12 @@ update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
   tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
   tests/unit/test_mesh$(EXEEXT) tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT) \
-  tests/unit/test_partial$(EXEEXT) tests/unit/test_prism$(EXEEXT)
+  tests/unit/test_partial$(EXEEXT) tests/unit/test_prism$(EXEEXT) \
+  tests/unit/test_revolved$(EXEEXT) tests/unit/test_superellipsoid$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
 	CHECK_LONG=1 tests/unit/test_prism$(EXEEXT)
+	CHECK_LONG=1 tests/unit/test_revolved$(EXEEXT)
+	CHECK_LONG=1 tests/unit/test_superellipsoid$(EXEEXT)
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
 	tests/unit/test_mesh$(EXEEXT) 1700000
 	tests/unit/test_range$(EXEEXT) 20000

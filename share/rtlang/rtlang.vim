@@ -34,20 +34,21 @@ syn keyword rtlangWord exr fade_color fade_colour fade_distance fade_power fallo
 syn keyword rtlangWord focal_point fog fog_alt fog_offset fog_type form frequency fresnel gamma
 syn keyword rtlangWord global_settings gradient granite hdr hexagon hf_gray_16 hierarchy hollow image_map
 syn keyword rtlangWord inside_vector interior interpolate intersection inverse ior irid irid_wavelength jitter
-syn keyword rtlangWord jpeg julia lambda leopard light_source location look_at looks_like major_radius mandel
-syn keyword rtlangWord map_type marble material matrix max_intersections max_trace_level media_attenuation
-syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
-syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
-syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
-syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
-syn keyword rtlangWord pigment_map pigment_pattern planar plane png point_at poly poly_wave polygon ppm
-syn keyword rtlangWord premultiplied prism quadric quartic quick_color quick_colour quilted radial radius
-syn keyword rtlangWord ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
+syn keyword rtlangWord jpeg julia lambda lathe leopard light_source location look_at looks_like major_radius
+syn keyword rtlangWord mandel map_type marble material matrix max_intersections max_trace_level
+syn keyword rtlangWord media_attenuation media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar
+syn keyword rtlangWord no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator normal
+syn keyword rtlangWord normal_map number_of_waves object octaves offset omega omnimax once onion open orient
+syn keyword rtlangWord orientation orthographic panoramic parallel pattern perspective pgm phase phong
+syn keyword rtlangWord phong_size pigment pigment_map pigment_pattern planar plane png point_at poly poly_wave
+syn keyword rtlangWord polygon ppm premultiplied prism quadric quartic quick_color quick_colour quilted radial
+syn keyword rtlangWord radius ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
 syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope_map
-syn keyword rtlangWord smooth_triangle solid specular sphere spherical spiral1 spiral2 split_union spotlight
-syn keyword rtlangWord spotted strength sturm text texture texture_map tga thickness threshold tiff tightness
-syn keyword rtlangWord tiles toroidal torus transform translate triangle triangle_wave turb_depth turbulence
-syn keyword rtlangWord ultra_wide_angle union up use_color use_colour variance warp waves wood wrinkles
+syn keyword rtlangWord smooth_triangle solid sor specular sphere spherical spiral1 spiral2 split_union
+syn keyword rtlangWord spotlight spotted strength sturm superellipsoid text texture texture_map tga thickness
+syn keyword rtlangWord threshold tiff tightness tiles toroidal torus transform translate triangle
+syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
+syn keyword rtlangWord variance warp waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

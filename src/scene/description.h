@@ -236,6 +236,24 @@ typedef struct PrismDesc {
     bool is_control_bound; // POV-Ray's box is that of all control points
 } PrismDesc;
 
+// Its outline has no piece where all its points are one.
+typedef struct LatheDesc {
+    ObjectPart part;
+    Numbers outline;       // scene/outline.h, closed by pieces that are not seen
+    bool is_control_bound; // as of a prism
+} LatheDesc;
+
+typedef struct SorDesc {
+    ObjectPart part;
+    Numbers list; // scene/sor.h
+    bool is_open;
+} SorDesc;
+
+typedef struct SuperellipsoidDesc {
+    ObjectPart part;
+    double about, along; // e and n
+} SuperellipsoidDesc;
+
 typedef struct PolygonDesc {
     ObjectPart part;
     Numbers outline; // within the frame
@@ -377,6 +395,9 @@ typedef union Desc {
     BlobPartDesc blob_part;
     PrismDesc prism;
     PolygonDesc polygon;
+    LatheDesc lathe;
+    SorDesc sor;
+    SuperellipsoidDesc superellipsoid;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     MeshDesc mesh;

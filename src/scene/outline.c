@@ -96,7 +96,7 @@ typedef struct Piece {
 static inline Piece piece_of(const Numbers *list, uint32_t stride, uint32_t i)
 {
     const double *at = outline_place(list, stride, i);
-    return (Piece){at, at + PIECE_POINTS, at + stride - 2, at[PIECE_DEGREE] == 1.0};
+    return (Piece){at, at + PIECE_POINTS, at + stride - 2, at[PIECE_DEGREE] <= 1.0};
 }
 
 // Whether piece i is the first of a group that, by its box, is passed over with all that follow in it.
@@ -214,6 +214,15 @@ bool outline_holds(const Numbers *list, OutlinePoint p)
     return is_inside;
 }
 
+// Each curve is crossed an even number of times, so that what is to the left of -radius is odd where what is to the
+// right of it is.
+bool outline_holds_turned(const Numbers *list, double radius, double y)
+{
+    bool is_mirrored = list->items[OUTLINE_MIRRORED] != 0.0;
+    return outline_holds(list, (OutlinePoint){radius, y}) !=
+           (is_mirrored && outline_holds(list, (OutlinePoint){-radius, y}));
+}
+
 // ---- making one
 
 void outline_begin(double *items, size_t *count, unsigned degree, bool is_conic)
@@ -266,6 +275,19 @@ void outline_add(double *items, size_t *count, const double *points)
         box[high] = fmax(box[high], points[i]);
     }
     *count += stride;
+}
+
+void outline_add_unseen(double *items, size_t *count, OutlinePoint from, OutlinePoint to)
+{
+    bool is_curved = items[OUTLINE_DEGREE] > 1.0;
+    double points[8] = {from.u, from.v};
+    points[is_curved ? 6 : 2] = to.u;
+    points[is_curved ? 7 : 3] = to.v;
+    if (is_curved) {
+        outline_straighten(points);
+    }
+    outline_add(items, count, points);
+    items[*count - (PIECE_POINTS + (is_curved ? 8u : 4u)) + PIECE_DEGREE] = 0.0;
 }
 
 // ---- the nearest point

@@ -18,6 +18,7 @@
 enum {
     OUTLINE_DEGREE, // 1 or 3
     OUTLINE_CONIC,  // of a prism: 1 where it grows with the height
+    OUTLINE_MIRRORED = OUTLINE_CONIC, // of a lathe: 1 where u is less than 0 somewhere, which -u is drawn for
     OUTLINE_HEAD,
     OUTLINE_PIECES_MOST = 10000,
 };
@@ -29,7 +30,7 @@ typedef struct OutlinePoint {
 enum {                // of a piece
     PIECE_LOW,        // u and v
     PIECE_HIGH = 2,   // likewise
-    PIECE_DEGREE = 4, // 1 or that of the outline
+    PIECE_DEGREE = 4, // 1 or that of the outline; 0: straight, and of a lathe not seen
     PIECE_POINTS = 5, // one more than the degree of the outline
     OUTLINE_GROUP = 8,
     OUTLINE_BOX = 4,
@@ -79,10 +80,19 @@ void outline_straighten(double points[8]);
 void outline_begin(double *items, size_t *count, unsigned degree, bool is_conic);
 void outline_add(double *items, size_t *count, const double *points);
 
+// Add a straight piece that is not seen.
+void outline_add_unseen(double *items, size_t *count, OutlinePoint from, OutlinePoint to);
+
 // How often a line crosses it, at most; even.
 static inline uint32_t outline_crossings_most(const Numbers *list)
 {
     return (outline_piece_count(list) * outline_degree(list) + 1) & ~1u;
+}
+
+// How often a line crosses it once it is turned about v, at most; even.
+static inline uint32_t lathe_crossings_most(const Numbers *list)
+{
+    return 2 * outline_piece_count(list) * outline_degree(list);
 }
 
 // A line, of all points with a u + b + c v = 0, and the box of what of it counts.
@@ -105,6 +115,9 @@ typedef enum OutlineAnswer { OUTLINE_FAR, OUTLINE_NEAR, OUTLINE_DOUBTFUL } Outli
 uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoint *points, OutlineAnswer *answer);
 
 bool outline_holds(const Numbers *list, OutlinePoint p);
+
+// Of a lathe: whether a point at that distance from its axis is inside.
+bool outline_holds_turned(const Numbers *list, double radius, double y);
 
 // The nearest point of it, and a vector along it there.
 OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *along);

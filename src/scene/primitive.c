@@ -10,6 +10,8 @@
 #include "scene/part.h"
 #include "scene/polynomial.h"
 #include "scene/outline.h"
+#include "scene/sor.h"
+#include "scene/superellipsoid.h"
 
 static bool is_between(double low, double value, double high)
 {
@@ -399,6 +401,96 @@ static double polygon_support(const Part *part, Vec3 n)
     return outline_support(&part->list, (OutlinePoint){n.x, n.y});
 }
 
+// ---- lathe
+
+static double lathe_support(const Part *part, Vec3 n)
+{
+    double round = hypot(n.x, n.z), right = outline_support(&part->list, (OutlinePoint){round, n.y});
+    bool is_mirrored = part->list.items[OUTLINE_MIRRORED] != 0.0;
+    return is_mirrored ? fmax(right, outline_support(&part->list, (OutlinePoint){-round, n.y})) : right;
+}
+
+static bool lathe_holds(const Part *part, Vec3 p)
+{
+    return outline_holds_turned(&part->list, hypot(p.x, p.z), p.y);
+}
+
+static uint32_t lathe_intervals(const Part *part)
+{
+    return lathe_crossings_most(&part->list) / 2 + 1;
+}
+
+// What is not seen is made anew when it is read.
+static void lathe_dump(const Part *part, TextBuffer *out)
+{
+    unsigned degree = outline_degree(&part->list);
+    uint32_t pieces = outline_piece_count(&part->list), seen = 0;
+    while (seen < pieces && outline_piece(&part->list, seen)[PIECE_DEGREE - PIECE_POINTS] != 0.0) {
+        seen++;
+    }
+    text_append(out, degree == 1 ? "linear_spline " : "bezier_spline ");
+    text_printf(out, "%u", degree == 1 ? seen + 1 : 4 * seen);
+    for (uint32_t i = 0; i < seen; i++) {
+        for (unsigned k = degree == 1 && i > 0 ? 1 : 0; k <= degree; k++) {
+            text_append(out, ", ");
+            dump_numbers(out, outline_piece(&part->list, i) + 2 * k, 2);
+        }
+    }
+}
+
+// ---- surface of revolution
+
+// The discs of its ends, the cylinders about its stretches.
+static double sor_support(const Part *part, Vec3 n)
+{
+    double round = hypot(n.x, n.z), most = -(double)INFINITY;
+    for (uint32_t i = 0; i < sor_stretch_count(&part->list); i++) {
+        const double *f = sor_squares(&part->list, i);
+        double square = fmax(fmax(f[0], f[1]), fmax(f[2], f[3]));
+        double y = fmax(sor_height(&part->list, i) * n.y, sor_height(&part->list, i + 1) * n.y);
+        most = square >= 0.0 ? fmax(most, round * sqrt(square) + y) : most;
+    }
+    return most;
+}
+
+static bool sor_part_holds(const Part *part, Vec3 p)
+{
+    return sor_holds(&part->list, p.x * p.x + p.z * p.z, p.y);
+}
+
+static uint32_t sor_intervals(const Part *part)
+{
+    return sor_crossings_most(&part->list) / 2 + 1;
+}
+
+static void sor_dump(const Part *part, TextBuffer *out)
+{
+    uint32_t count = sor_point_count(&part->list);
+    text_printf(out, "%u", count);
+    for (uint32_t i = 0; i < count; i++) {
+        text_append(out, ", ");
+        dump_numbers(out, sor_point_at(&part->list, i), 2);
+    }
+}
+
+// ---- superellipsoid
+
+static double superellipsoid_support(const Part *part, Vec3 n)
+{
+    (void)part;
+    return fabs(n.x) + fabs(n.y) + fabs(n.z);
+}
+
+static bool superellipsoid_holds(const Part *part, Vec3 p)
+{
+    return superellipsoid_size(part->data[0], p) < 1.0;
+}
+
+static void superellipsoid_dump(const Part *part, TextBuffer *out)
+{
+    dump_numbers(out, &part->data[0].x, 2);
+}
+
 // ---- meshes: they reach as far as their boxes
 
 static bool solid_mesh_holds(const Part *part, Vec3 p)
@@ -545,6 +637,41 @@ static const PrimitiveClass classes[] = {
                       .support = polygon_support,
                       .dump = outline_dump,
                       .measure = box_measure},
+    [PART_LATHE] = {.word = "lathe",
+                    .head = "lathe { ",
+                    .family = FAMILY_STRAIGHT,
+                    .surface = PART_LATHE,
+                    .key_count = 3,
+                    .interval_count = 2,
+                    .interval_most = lathe_intervals,
+                    .has_list = true,
+                    .is_sized = true,
+                    .support = lathe_support,
+                    .holds = lathe_holds,
+                    .dump = lathe_dump,
+                    .measure = box_measure},
+    [PART_SOR] = {.word = "sor",
+                  .head = "sor { ",
+                  .family = FAMILY_STRAIGHT,
+                  .surface = PART_SOR,
+                  .key_count = 3,
+                  .interval_count = 2,
+                  .interval_most = sor_intervals,
+                  .has_list = true,
+                  .is_sized = true,
+                  .support = sor_support,
+                  .holds = sor_part_holds,
+                  .dump = sor_dump,
+                  .measure = box_measure},
+    [PART_SUPERELLIPSOID] = {.word = "superellipsoid",
+                             .head = "superellipsoid { ",
+                             .family = FAMILY_STRAIGHT,
+                             .surface = PART_SUPERELLIPSOID,
+                             .key_count = 1,
+                             .interval_count = SUPERELLIPSOID_INTERVALS,
+                             .support = superellipsoid_support,
+                             .holds = superellipsoid_holds,
+                             .dump = superellipsoid_dump},
     [PART_MESH] = {.word = "mesh",
                    .head = "",
                    .family = FAMILY_STRAIGHT,

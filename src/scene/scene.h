@@ -278,6 +278,9 @@ typedef enum PartKind {
     PART_BLOB,
     PART_PRISM,
     PART_POLYGON,
+    PART_LATHE,
+    PART_SOR,
+    PART_SUPERELLIPSOID,
     PART_MESH,
     PART_MESH_SOLID,
     PART_KINDS
@@ -285,7 +288,7 @@ typedef enum PartKind {
 
 typedef enum PartFlag {
     PART_INVERSE = 1, // inside and outside change places
-    PART_OPEN = 2,    // a cone without the two discs at its ends
+    PART_OPEN = 2,    // of a cone, prism or sor side 0 alone is seen: not the ends
     PART_UNSEEN = 4,  // clips others, has no surface itself
 } PartFlag;
 

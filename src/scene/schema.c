@@ -338,6 +338,15 @@ static const SchemaProperty prism_properties[] = {
 
 static const PrismDesc prism_defaults = {.part = OBJECT_PART};
 
+static const SuperellipsoidDesc superellipsoid_defaults = {.part = OBJECT_PART, .about = 1.0, .along = 1.0};
+static const LatheDesc lathe_defaults = {.part = OBJECT_PART};
+static const SorDesc sor_defaults = {.part = OBJECT_PART};
+
+static const SchemaProperty sor_properties[] = {
+    {"open", TYPE_FLAG, AT(SorDesc, is_open), .is_first = true, .doc = "without the discs at its ends"},
+    {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
+};
+
 static const PolygonDesc polygon_defaults = {.part = OBJECT_PART, .frame = IDENTITY};
 
 static const SchemaProperty triangle_arguments[] = {
@@ -753,7 +762,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                       .is_object = true,
                       .is_declarable = true,
                       .arguments = LIST(quadric_arguments),
-                      .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                      .groups = {OBJECT_GROUPS},
                       .doc = "Where a polynomial of order 2 is 0: ellipsoids, cones, paraboloids; inside where it is "
                              "less."},
     [KIND_CUBIC] = {.word = "cubic",
@@ -823,6 +832,31 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                       .is_declarable = true,
                       .groups = {OBJECT_GROUPS},
                       .doc = "The number of points, the points: outlines in one plane."},
+    [KIND_LATHE] = {.word = "lathe",
+                    .what = "a lathe",
+                    .size = sizeof(LatheDesc),
+                    .defaults = &lathe_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                    .doc = "A word for the curve, the number of points, the points: a curve in x and y, turned about y."},
+    [KIND_SOR] = {.word = "sor",
+                  .what = "a sor",
+                  .size = sizeof(SorDesc),
+                  .defaults = &sor_defaults,
+                  .is_object = true,
+                  .is_declarable = true,
+                  .groups = {LIST(sor_properties), OBJECT_GROUPS},
+                  .doc = "The number of points, the points, of radius and height: a radius for each height, turned "
+                         "about y."},
+    [KIND_SUPERELLIPSOID] = {.word = "superellipsoid",
+                             .what = "a superellipsoid",
+                             .size = sizeof(SuperellipsoidDesc),
+                             .defaults = &superellipsoid_defaults,
+                             .is_object = true,
+                             .is_declarable = true,
+                             .groups = {OBJECT_GROUPS},
+                             .doc = "`<e, n>`: where (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) is less than 1."},
     [KIND_TEXT] = {.word = "text",
                    .what = "a text",
                    .size = sizeof(UnionDesc),
@@ -1079,16 +1113,13 @@ static const SchemaUnsupported unsupported[] = {
     {"height_field", true, NULL, NULL},
     {"isosurface", true, NULL, NULL},
     {"julia_fractal", true, NULL, NULL},
-    {"lathe", true, NULL, NULL},
     {"light_group", true, "use a `union`", "its lights and shapes"},
     {"media", true, NULL, "smoke, dust and fire, and their light"},
     {"ovus", true, "use a sphere with `scale`", NULL},
     {"parametric", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
     {"rainbow", true, NULL, "the rainbow"},
-    {"sor", true, NULL, NULL},
     {"sphere_sweep", true, "use a `union` of spheres", NULL},
-    {"superellipsoid", true, "use a sphere with `scale`", NULL},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},
     {"iff", false, "save the picture as PNG", NULL},

@@ -44,6 +44,7 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
     };
     memcpy(solid.data, part->data, sizeof solid.data);
     solid.films = solid_classes[solid.kind].films;
+    solid.flags |= solid_classes[solid.kind].is_open ? PART_OPEN : 0;
     solid.traits |= solid_classes[solid.kind].turns ? SOLID_TURNS : 0;
     if (part->kind == PART_PLANE) {
         solid.data[1].x = ldexp(part->data[1].x, -exponent);

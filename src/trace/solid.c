@@ -14,7 +14,9 @@
 #include "trace/plane.h"
 #include "trace/polynomial.h"
 #include "trace/prism.h"
+#include "trace/revolved.h"
 #include "trace/sphere.h"
+#include "trace/superellipsoid.h"
 #include "trace/torus.h"
 
 static void unit_axes(Vec3 axes[3], double z)
@@ -308,6 +310,67 @@ static bool polygon_root(const Solid *solid, const Ray *object, double *t)
     return flat_root(object->origin, object->direction, t, &x, &y) && outline_holds(&solid->list, (OutlinePoint){x, y});
 }
 
+// ---- lathe and surface of revolution
+
+static unsigned lathe_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return lathe_intervals(&solid->list, solid->fixed[0], solid->fixed[1], object, left, intervals);
+}
+
+static Vec3 lathe_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return lathe_gradient(&solid->list, point, side);
+}
+
+static Vec3 lathe_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return lathe_point(&solid->list, point, side);
+}
+
+static unsigned sor_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return sor_intervals(&solid->list, solid->fixed[0], solid->fixed[1], object, left, intervals);
+}
+
+static Vec3 sor_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return sor_gradient(&solid->list, point, side);
+}
+
+static Vec3 sor_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return sor_point(&solid->list, point, side);
+}
+
+// ---- superellipsoid
+
+static unsigned superellipsoid_side_intervals(const Solid *solid, const Ray *object, SideLeft left,
+                                              RayInterval *intervals)
+{
+    return superellipsoid_intervals(solid->data[0], object, left, intervals);
+}
+
+static Vec3 superellipsoid_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return superellipsoid_gradient(solid->data[0], point);
+}
+
+static Vec3 superellipsoid_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return superellipsoid_point(solid->data[0], point);
+}
+
+static void cube_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
+{
+    (void)solid;
+    (void)middle;
+    for (int i = 0; i < 3; i++) {
+        axes[i] = vec3(i == 0 ? ROOT3 : 0.0, i == 1 ? ROOT3 : 0.0, i == 2 ? ROOT3 : 0.0);
+    }
+}
+
 // ---- the table
 
 const SolidClass solid_classes[PART_KINDS] = {
@@ -379,6 +442,24 @@ const SolidClass solid_classes[PART_KINDS] = {
                       .point = flat_point,
                       .axes = box_axes,
                       .across = {3}},
+    [PART_LATHE] = {.intervals = lathe_side_intervals,
+                    .normal = lathe_side_gradient,
+                    .gradient = lathe_side_gradient,
+                    .point = lathe_side_point,
+                    .axes = box_axes,
+                    .is_open = true,
+                    .turns = true},
+    [PART_SOR] = {.intervals = sor_side_intervals,
+                  .normal = sor_side_gradient,
+                  .gradient = sor_side_gradient,
+                  .point = sor_side_point,
+                  .axes = box_axes,
+                  .across = {0, 2, 2}},
+    [PART_SUPERELLIPSOID] = {.intervals = superellipsoid_side_intervals,
+                             .normal = superellipsoid_side_gradient,
+                             .gradient = superellipsoid_side_gradient,
+                             .point = superellipsoid_side_point,
+                             .axes = cube_axes},
     [PART_MESH] = {.axes = box_axes}, // all else is in trace/mesh.h
     [PART_MESH_SOLID] = {.axes = box_axes},
 };

@@ -95,6 +95,7 @@ typedef struct SolidClass {
     Vec3 (*point)(const Solid *solid, Vec3 point, uint8_t side); // one near the side, put onto it
     // The axes of an ellipsoid around it, about *middle.
     void (*axes)(const Solid *solid, Vec3 axes[3], Vec3 *middle);
+    bool is_open;              // what closes it is not seen, as of one with PART_OPEN
     bool turns;                // its normals may point in as well as out: which way a ray crosses it tells
     uint8_t films;             // as of a solid
     int8_t across[SIDES_MOST]; // of each side: 1 + the axis that it lies across, 0 if it is not flat or across none

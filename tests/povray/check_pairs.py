@@ -31,6 +31,8 @@ LEFT_OUT = {
     "max_intersections mm_per_unit quick_color quick_colour media_interaction media_attenuation": "they change no picture",
     "blob threshold component hierarchy": "POV-Ray's roots of blobs have too few digits behind glass; tests/povray/*.scn"
     " have them",
+    "sor": "POV-Ray's roots of it have too few digits where rays are nearly at right angles to its axis; tests/povray/*.scn"
+    " have them",
     "charset": "of strings; tests/lang/strings.test asks POV-Ray",
     "pattern": "a value; tests/lang/functions.test asks POV-Ray",
     "colour_map fade_colour": "other spellings",

@@ -145,6 +145,16 @@ SCENES = {
     "prisms of the greatest and the least numbers": HEAD + "".join(
         "prism { %s %s, 1, 4, <-%s, 0>, <%s, 1>, <0, %s>, <-%s, 0> pigment { rgb 1 } }\n" % (words, low, *[size] * 4)
         for words in ("linear_sweep", "conic_sweep") for low in ("0", "-1e3") for size in ("1e300", "1e-9")),
+    "lathes of the greatest and the least numbers": HEAD + "".join(
+        "lathe { %s 4, <0, 0>, <%s, 1>, <%s, %s>, <%s, 4> pigment { rgb 1 } }\n" % (words, size, size, high, size)
+        for words in ("linear_spline", "quadratic_spline", "cubic_spline", "bezier_spline")
+        for high in ("2", "1e300") for size in ("1e300", "1e-9", "1e-320")),
+    "surfaces of revolution of the greatest and the least numbers": HEAD + "".join(
+        "sor { 5, <0, -1>, <%s, 0>, <0, 1>, <%s, %s>, <%s, 1e305> %s pigment { rgb 1 } }\n" % (*[size] * 2, high, size, words)
+        for words in ("", "open") for high in ("2", "1e300") for size in ("1e300", "1e-9", "1e-320")),
+    "superellipsoids of the greatest and the least numbers": HEAD + "".join(
+        "superellipsoid { <%s, %s> pigment { rgb 1 } }\n" % (about, along)
+        for about in ("1e300", "1e-9", "1e-320", "3") for along in ("1e300", "1e-9", "1e-320", "0.2")),
     "a mesh of the greatest and the least numbers": HEAD +
         "mesh { triangle { -3e38, <3e38, 0, 1>, <0, 3e38, 1> } triangle { 0, 1e-44*x, 1e-44*y }\n"
         "smooth_triangle { 0, 1e300*x, x, 1e-160*y, y, 1e-300*z } inside_vector 1e300*y }\n",

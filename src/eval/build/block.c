@@ -72,6 +72,9 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_TEXT] = text_body,
     [KIND_PRISM] = prism_body,
     [KIND_POLYGON] = polygon_body,
+    [KIND_LATHE] = lathe_body,
+    [KIND_SOR] = sor_body,
+    [KIND_SUPERELLIPSOID] = superellipsoid_body,
     [KIND_MESH] = mesh_body,
     [KIND_MESH2] = mesh2_body,
     [KIND_COLOUR_MAP] = pattern_map_body,
@@ -191,8 +194,11 @@ static const SchemaProperty *find_property(const Block *block, const AstNode *it
     if (!is_word || word >= WORD_COUNT) {
         return NULL;
     }
-    unsigned place = block->ev->objects->properties[block->kind][word];
-    return place ? schema_property(block->kind, place - 1) : NULL;
+    // What is said of how roots are found may be said of a copy, too.
+    bool is_of_shape = block->kind == KIND_OBJECT && (word == W_sturm || word == W_hierarchy);
+    SchemaKind kind = is_of_shape ? block->is : block->kind;
+    unsigned place = block->ev->objects->properties[kind][word];
+    return place ? schema_property(kind, place - 1) : NULL;
 }
 
 // Passes over what belongs to a word that is left out: numbers, colours and names, none of them a mistyped property.

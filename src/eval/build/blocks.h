@@ -365,6 +365,22 @@ bool prism_box(const void *object, OwnBox *own) RT_MUST_CHECK;
 const char *polygon_form(const void *object, Part *part) RT_MUST_CHECK;
 bool polygon_box(const void *object, OwnBox *own) RT_MUST_CHECK;
 
+// revolved.c: lathes and surfaces of revolution
+bool lathe_body(Block *block) RT_MUST_CHECK;
+bool sor_body(Block *block) RT_MUST_CHECK;
+const char *lathe_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+bool lathe_holds(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
+bool lathe_box(const void *object, OwnBox *own);
+const char *sor_form(const void *object, Part *part) RT_MUST_CHECK;
+bool sor_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
+bool sor_box(const void *object, OwnBox *own);
+
+// superellipsoid.c
+bool superellipsoid_body(Block *block) RT_MUST_CHECK;
+const char *superellipsoid_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+bool superellipsoid_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
+bool superellipsoid_box(const void *object, OwnBox *own);
+
 // text.c: letters, as a union of prisms
 bool text_body(Block *block) RT_MUST_CHECK;
 

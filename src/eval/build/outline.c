@@ -9,16 +9,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "eval/build/blocks.h"
-#include "scene/outline.h"
+#include "eval/build/outline.h"
 
 // Measured.
 static const double CLOSED = 5e-11;
 
 // How far a point may be off the plane of the others, as a part of their distances.
 static const double FLAT = 1e-6;
-
-typedef enum Curve { CURVE_LINEAR, CURVE_QUADRATIC, CURVE_CUBIC, CURVE_BEZIER } Curve;
 
 static const struct {
     Word word;
@@ -31,13 +28,7 @@ static const struct {
     [CURVE_BEZIER] = {W_bezier_spline, 4, "Bézier"},
 };
 
-// An outline while it is made; room for all of it.
-typedef struct Pen {
-    double *items;
-    size_t count;
-} Pen;
-
-static bool is_same(OutlinePoint a, OutlinePoint b)
+bool outline_is_same(OutlinePoint a, OutlinePoint b)
 {
     return fabs(a.u - b.u) < CLOSED && fabs(a.v - b.v) < CLOSED;
 }
@@ -48,8 +39,7 @@ static OutlinePoint moved(OutlinePoint a, double s, OutlinePoint b, OutlinePoint
     return (OutlinePoint){a.u + s * (b.u - c.u), a.v + s * (b.v - c.v)};
 }
 
-// From p[1] to `end`, or from p[0]; `end` is p[2], or the start of the curve that it closes.
-static void pen_piece(Pen *pen, Curve curve, const OutlinePoint *p, OutlinePoint end)
+void outline_pen_piece(OutlinePen *pen, OutlineCurve curve, const OutlinePoint *p, OutlinePoint end)
 {
     OutlinePoint piece[4] = {p[0], end}, bend;
     switch (curve) {
@@ -76,7 +66,12 @@ static void pen_piece(Pen *pen, Curve curve, const OutlinePoint *p, OutlinePoint
     outline_add(pen->items, &pen->count, &piece[0].u);
 }
 
-static bool not_closed(Block *block, Curve curve, Span span)
+const char *outline_curve_name(OutlineCurve curve)
+{
+    return curves[curve].name;
+}
+
+static bool not_closed(Block *block, OutlineCurve curve, Span span)
 {
     return block_fault(block, DIAG_E0493, span,
                        "a %s outline of the %s is not closed: its last point must equal its first", curves[curve].name,
@@ -84,17 +79,17 @@ static bool not_closed(Block *block, Curve curve, Span span)
 }
 
 // Straight pieces; the last outline is closed, with a warning, where it is not.
-static bool draw_linear(Block *block, Pen *pen, const OutlinePoint *p, size_t count, Span span)
+static bool draw_linear(Block *block, OutlinePen *pen, const OutlinePoint *p, size_t count, Span span)
 {
     size_t first = 0;
     for (size_t i = 1; i < count; i++) {
-        bool closes = i > first && is_same(p[i], p[first]);
+        bool closes = i > first && outline_is_same(p[i], p[first]);
         if (i > first) {
-            pen_piece(pen, CURVE_LINEAR, p + i - 1, closes ? p[first] : p[i]);
+            outline_pen_piece(pen, CURVE_LINEAR, p + i - 1, closes ? p[first] : p[i]);
         }
         first = closes ? i + 1 : first;
         if (!closes && i + 1 == count && i > first) {
-            pen_piece(pen, CURVE_LINEAR, p + i, p[first]);
+            outline_pen_piece(pen, CURVE_LINEAR, p + i, p[first]);
             eval_warn(block->ev, DIAG_W0492, span,
                       "an outline of the %s is not closed: its first point is taken as its last", block_word(block));
         }
@@ -103,38 +98,38 @@ static bool draw_linear(Block *block, Pen *pen, const OutlinePoint *p, size_t co
            block_fault(block, DIAG_E0492, span, "the last point of the %s begins an outline", block_word(block));
 }
 
-static bool draw_bezier(Block *block, Pen *pen, const OutlinePoint *p, size_t count, Span span)
+static bool draw_bezier(Block *block, OutlinePen *pen, const OutlinePoint *p, size_t count, Span span)
 {
     size_t first = 0;
     for (size_t i = 0; i < count; i += 4) {
-        bool closes = is_same(p[i + 3], p[first]);
-        if (i > first && !is_same(p[i], p[i - 1])) {
+        bool closes = outline_is_same(p[i + 3], p[first]);
+        if (i > first && !outline_is_same(p[i], p[i - 1])) {
             return not_closed(block, CURVE_BEZIER, span);
         }
         OutlinePoint piece[4] = {p[i], p[i + 1], p[i + 2], p[i + 3]};
         if (i > first) {
             piece[0] = p[i - 1];
         }
-        pen_piece(pen, CURVE_BEZIER, piece, closes ? p[first] : p[i + 3]);
+        outline_pen_piece(pen, CURVE_BEZIER, piece, closes ? p[first] : p[i + 3]);
         first = closes ? i + 4 : first;
     }
     return first == count || not_closed(block, CURVE_BEZIER, span);
 }
 
 // Each outline has a point before its first, a cubic one another behind its last.
-static bool draw_spline(Block *block, Pen *pen, Curve curve, const OutlinePoint *p, size_t count, Span span)
+static bool draw_spline(Block *block, OutlinePen *pen, OutlineCurve curve, const OutlinePoint *p, size_t count, Span span)
 {
     size_t first = 1, behind = curve == CURVE_CUBIC ? 1 : 0;
     while (first < count) {
         size_t last = first + 1;
-        while (last < count && !is_same(p[last], p[first])) {
+        while (last < count && !outline_is_same(p[last], p[first])) {
             last++;
         }
         if (last + behind >= count) {
             return not_closed(block, curve, span);
         }
         for (size_t i = first; i < last; i++) {
-            pen_piece(pen, curve, p + i - 1, i + 1 == last ? p[first] : p[i + 1]);
+            outline_pen_piece(pen, curve, p + i - 1, i + 1 == last ? p[first] : p[i + 1]);
         }
         first = last + behind + 2;
     }
@@ -142,26 +137,34 @@ static bool draw_spline(Block *block, Pen *pen, Curve curve, const OutlinePoint 
            block_fault(block, DIAG_E0492, span, "the last point of the %s begins an outline", block_word(block));
 }
 
-static bool make_outline(Block *block, Curve curve, bool is_conic, const OutlinePoint *points, size_t count, Span span,
-                         Numbers *outline)
+bool outline_pen_begin(Block *block, OutlinePen *pen, OutlineCurve curve, bool is_conic, size_t pieces, Span span)
 {
-    double *items = arena_alloc_array(block->arena, OUTLINE_HEAD + OUTLINE_PIECE_NUMBERS * (count + 1), sizeof *items);
-    Pen pen = {items, 0};
-    if (!items) {
+    size_t most = OUTLINE_HEAD + OUTLINE_PIECE_NUMBERS * pieces;
+    *pen = (OutlinePen){arena_alloc_array(block->arena, most, sizeof *pen->items), 0};
+    if (!pen->items) {
         return eval_no_memory(block->ev, span);
     }
-    outline_begin(items, &pen.count, curve == CURVE_LINEAR ? 1 : 3, is_conic);
+    outline_begin(pen->items, &pen->count, curve == CURVE_LINEAR ? 1 : 3, is_conic);
+    return true;
+}
+
+static bool make_outline(Block *block, OutlineCurve curve, bool is_conic, const OutlinePoint *points, size_t count, Span span,
+                         Numbers *outline)
+{
+    OutlinePen pen;
+    if (!outline_pen_begin(block, &pen, curve, is_conic, count + 1, span)) {
+        return false;
+    }
     bool is_drawn = curve == CURVE_LINEAR   ? draw_linear(block, &pen, points, count, span)
                     : curve == CURVE_BEZIER ? draw_bezier(block, &pen, points, count, span)
                                             : draw_spline(block, &pen, curve, points, count, span);
-    *outline = (Numbers){items, pen.count};
+    *outline = (Numbers){pen.items, pen.count};
     return is_drawn;
 }
 
 // ---- reading
 
-// The number of points, which stands next.
-static bool read_count(Block *block, unsigned least, const char *what, size_t *count, Span *span)
+bool outline_read_count(Block *block, unsigned least, const char *what, size_t *count, Span *span)
 {
     double number;
     *span = block->node->span;
@@ -215,6 +218,20 @@ static bool read_point(Block *block, OutlinePoint *point)
                        block_word(block));
 }
 
+bool outline_read_points(Block *block, size_t count, Span span, OutlinePoint **points)
+{
+    *points = arena_alloc_array(block->arena, count, sizeof **points);
+    if (!*points) {
+        return eval_no_memory(block->ev, span);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!is_at_point(block, i, count) || !read_point(block, &(*points)[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool read_height(Block *block, const char *what, double *height)
 {
     Span span = block->node->span;
@@ -229,19 +246,18 @@ static bool read_height(Block *block, const char *what, double *height)
     return true;
 }
 
-// The words before the numbers; the last of each kind counts.
-static void read_words(Block *block, Curve *curve, bool *is_conic)
+void outline_read_words(Block *block, OutlineCurve *curve, bool *is_conic)
 {
     for (bool is_word = true; is_word;) {
         is_word = false;
         for (unsigned i = 0; i < RT_COUNT_OF(curves); i++) {
             if (cursor_at_word(&block->cursor, curves[i].word)) {
-                *curve = (Curve)i;
+                *curve = (OutlineCurve)i;
                 is_word = true;
             }
         }
-        bool is_straight = cursor_at_word(&block->cursor, W_linear_sweep);
-        if (is_straight || cursor_at_word(&block->cursor, W_conic_sweep)) {
+        bool is_straight = is_conic && cursor_at_word(&block->cursor, W_linear_sweep);
+        if (is_straight || (is_conic && cursor_at_word(&block->cursor, W_conic_sweep))) {
             *is_conic = !is_straight;
             is_word = true;
         }
@@ -254,16 +270,16 @@ static void read_words(Block *block, Curve *curve, bool *is_conic)
 bool prism_body(Block *block)
 {
     PrismDesc *prism = &block->record->prism;
-    Curve curve = CURVE_LINEAR;
+    OutlineCurve curve = CURVE_LINEAR;
     bool is_conic = false;
     double heights[2];
     size_t count;
     Span span;
     char what[32];
-    read_words(block, &curve, &is_conic);
+    outline_read_words(block, &curve, &is_conic);
     snprintf(what, sizeof what, "%s ", curves[curve].name);
     if (!read_height(block, "first", &heights[0]) || !read_height(block, "second", &heights[1]) ||
-        !read_count(block, curves[curve].least, what, &count, &span)) {
+        !outline_read_count(block, curves[curve].least, what, &count, &span)) {
         return false;
     }
     if (curve == CURVE_BEZIER && count % 4 != 0) {
@@ -272,14 +288,9 @@ bool prism_body(Block *block)
                            "multiple of 4",
                            count);
     }
-    OutlinePoint *points = arena_alloc_array(block->arena, count, sizeof *points);
-    if (!points) {
-        return eval_no_memory(block->ev, span);
-    }
-    for (size_t i = 0; i < count; i++) {
-        if (!is_at_point(block, i, count) || !read_point(block, &points[i])) {
-            return false;
-        }
+    OutlinePoint *points;
+    if (!outline_read_points(block, count, span, &points)) {
+        return false;
     }
     prism->heights[0] = fmin(heights[0], heights[1]);
     prism->heights[1] = fmax(heights[0], heights[1]);
@@ -341,7 +352,7 @@ bool polygon_body(Block *block)
     PolygonDesc *polygon = &block->record->polygon;
     size_t count;
     Span span;
-    if (!read_count(block, 3, "", &count, &span)) {
+    if (!outline_read_count(block, 3, "", &count, &span)) {
         return false;
     }
     Vec3 *corners = arena_alloc_array(block->arena, count, sizeof *corners);

@@ -1,0 +1,63 @@
+// Superellipsoids: two exponents become a fixed shape (scene/superellipsoid.h).
+//
+// Knows nothing of rays.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "eval/build/blocks.h"
+#include "scene/superellipsoid.h"
+
+// Half of POV-Ray's box. Measured.
+static const double BOX = 1.0001;
+
+bool superellipsoid_body(Block *block)
+{
+    SuperellipsoidDesc *shape = &block->record->superellipsoid;
+    Value value;
+    if (!cursor_at_value(&block->cursor)) {
+        return block_fault(block, DIAG_E0253, block_here(block), "`superellipsoid` needs a vector of 2 here: its exponents");
+    }
+    Span span = cursor_peek(&block->cursor)->span;
+    if (!cursor_value(&block->cursor, &value)) {
+        return false;
+    }
+    if (value.kind == VALUE_NUMBER) {
+        shape->about = shape->along = value.number;
+    } else if (value.kind == VALUE_VECTOR && value.components == 2) {
+        shape->about = value.v[0];
+        shape->along = value.v[1];
+    } else {
+        return block_fault(block, DIAG_E0202, span, "the exponents of a superellipsoid are a vector of 2, not %s",
+                           value_describe(&value));
+    }
+    if (!(isfinite(shape->about) && isfinite(shape->along))) {
+        return block_fault(block, DIAG_E0340, span, "an exponent of a superellipsoid is not finite");
+    }
+    double least = fmin(shape->about, shape->along);
+    return least > 0.0 || block_fault(block, DIAG_E0341, span,
+                                      "the exponents of a superellipsoid must be greater than 0, not %g", least);
+}
+
+const char *superellipsoid_form(const void *object, Part *part)
+{
+    const SuperellipsoidDesc *shape = object;
+    part->kind = PART_SUPERELLIPSOID;
+    part->data[0] = vec3(shape->about, shape->along, 0.0);
+    part->to_world = transform_identity();
+    return NULL;
+}
+
+bool superellipsoid_has(const void *object, Vec3 p, bool is_turned)
+{
+    const SuperellipsoidDesc *shape = object;
+    return (superellipsoid_size(vec3(shape->about, shape->along, 0.0), p) <= 1.0) != is_turned;
+}
+
+bool superellipsoid_box(const void *object, OwnBox *own)
+{
+    (void)object;
+    own->high = vec3(BOX, BOX, BOX);
+    own->low = vec3_neg(own->high);
+    return false;
+}
