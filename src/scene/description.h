@@ -265,6 +265,8 @@ typedef struct MeshDesc {
     const MeshCorners *corners;
     uint32_t single_count, corner_count;
     Vec3 inside_vector;
+    bool is_smooth; // of a height field, as is `water`
+    double water;
 } MeshDesc;
 
 struct UnionMember {

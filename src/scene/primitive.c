@@ -406,6 +406,13 @@ static bool solid_mesh_holds(const Part *part, Vec3 p)
     return mesh_holds(part->mesh.mesh, p);
 }
 
+// What is below a field of heights is inside, however deep.
+static double solid_mesh_support(const Part *part, Vec3 n)
+{
+    bool is_endless = part->mesh.mesh->field && part->node != NODE_NONE && n.y < 0.0;
+    return is_endless ? (double)INFINITY : box_support(part, n);
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -562,7 +569,7 @@ static const PrimitiveClass classes[] = {
                          .interval_count = 2,
                          .is_mesh = true,
                          .is_sized = true,
-                         .support = box_support,
+                         .support = solid_mesh_support,
                          .holds = solid_mesh_holds,
                                .measure = box_measure},
 };
