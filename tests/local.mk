@@ -365,6 +365,7 @@ lang_cases = \
   %D%/lang/files.test \
   %D%/lang/finish.test \
   %D%/lang/functions.test \
+  %D%/lang/height_field.test \
   %D%/lang/hints.test \
   %D%/lang/includes.test \
   %D%/lang/interior.test \

@@ -23,10 +23,10 @@ static uint16_t code_of(double scaled)
     return scaled > -most && scaled < most ? (uint16_t)(uint32_t)(int32_t)scaled : 0;
 }
 
-// How light a colour is, as POV-Ray has it, in single precision.
+// How light a colour is, as POV-Ray has it.
 static double grey_of(double red, double green, double blue)
 {
-    return (double)(0.297F * (float)red + 0.589F * (float)green + 0.114F * (float)blue);
+    return 0.297 * red + 0.589 * green + 0.114 * blue;
 }
 
 // ---- the field
@@ -84,7 +84,7 @@ static uint16_t picture_height(const Picture *picture, size_t pixel)
     }
     double green = sample_of(picture, at + 1);
     return picture->depth == PICTURE_DEPTH_16
-               ? code_of(floor(grey_of(first, green, sample_of(picture, at + 2)) * 65535.0 + SLACK))
+               ? code_of(grey_of(first, green, sample_of(picture, at + 2)) * 65535.0)
                : code_of(floor(first * 65280.0 + green * 255.0 + SLACK));
 }
 
@@ -145,7 +145,8 @@ static bool function_height(Block *block, const Function *function, const double
     if (!eval_step(block->ev, span) || function_apply(block->ev, function, place, span, v) == 0) {
         return false;
     }
-    *height = code_of((function->kind == FUNCTION_PIGMENT ? grey_of(v[0], v[1], v[2]) : v[0]) * 65535.0);
+    float value = (float)(function->kind == FUNCTION_PIGMENT ? grey_of(v[0], v[1], v[2]) : v[0]);
+    *height = code_of((double)(value * 65535.0F));
     return true;
 }
 
