@@ -355,6 +355,7 @@ AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.
 lang_cases = \
   %D%/lang/arrays.test \
+  %D%/lang/bicubic.test \
   %D%/lang/camera.test \
   %D%/lang/colours.test \
   %D%/lang/declare.test \

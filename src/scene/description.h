@@ -269,6 +269,14 @@ typedef struct MeshDesc {
     double water;
 } MeshDesc;
 
+// A bicubic patch becomes a mesh where it is placed.
+typedef struct PatchDesc {
+    ObjectPart part;
+    Vec3 points[4][4]; // four rows; u_steps halves from row to row, v_steps within the rows
+    double flatness;
+    double steps[2]; // u_steps, v_steps: whole numbers
+} PatchDesc;
+
 struct UnionMember {
     UnionMember *next;
     const void *object; // the description of its kind
@@ -375,6 +383,7 @@ typedef union Desc {
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     MeshDesc mesh;
+    PatchDesc patch;
     UnionDesc group;
     BackgroundDesc background;
     SkySphereDesc sky;

@@ -356,6 +356,8 @@ static const SchemaProperty mesh_properties[] = {
 
 static const MeshDesc mesh_defaults = {.part = OBJECT_PART};
 
+static const PatchDesc patch_defaults = {.part = OBJECT_PART};
+
 static const SchemaProperty height_field_properties[] = {
     {"smooth", TYPE_FLAG, AT(MeshDesc, is_smooth), .is_leading = true,
      .doc = "it is lit as if its normal went over from height to height"},
@@ -883,6 +885,15 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                            .groups = {LIST(height_field_properties), OBJECT_GROUPS},
                            .doc = "A picture, or `function` with two numbers and `{ … }`: heights from 0 to 1 over x and "
                                   "z from 0 to 1; see \"Height fields\"."},
+    [KIND_BICUBIC_PATCH] = {.word = "bicubic_patch",
+                            .what = "a bicubic patch",
+                            .size = sizeof(PatchDesc),
+                            .defaults = &patch_defaults,
+                            .is_object = true,
+                            .is_declarable = true,
+                            .groups = {OBJECT_GROUPS},
+                            .doc = "`type`, `flatness`, `u_steps` and `v_steps` with numbers, then four rows of four "
+                                   "points; see \"Meshes\"."},
     [KIND_UNION] = {.word = "union",
                     .what = "a union",
                     .size = sizeof(UnionDesc),
@@ -1092,7 +1103,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 };
 
 static const SchemaUnsupported unsupported[] = {
-    {"bicubic_patch", true, NULL, NULL},
     {"isosurface", true, NULL, NULL},
     {"julia_fractal", true, NULL, NULL},
     {"lathe", true, NULL, NULL},

@@ -38,6 +38,7 @@ typedef enum SchemaKind {
     KIND_MESH,
     KIND_MESH2,
     KIND_HEIGHT_FIELD,
+    KIND_BICUBIC_PATCH,
     KIND_UNION,
     KIND_MERGE,
     KIND_INTERSECTION,

@@ -75,6 +75,7 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_MESH] = mesh_body,
     [KIND_MESH2] = mesh2_body,
     [KIND_HEIGHT_FIELD] = height_field_body,
+    [KIND_BICUBIC_PATCH] = bicubic_body,
     [KIND_COLOUR_MAP] = pattern_map_body,
     [KIND_PIGMENT_MAP] = pattern_map_body,
     [KIND_TEXTURE_MAP] = pattern_map_body,

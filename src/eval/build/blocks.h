@@ -316,6 +316,9 @@ bool mesh_body(Block *block) RT_MUST_CHECK;
 bool mesh2_body(Block *block) RT_MUST_CHECK;
 bool mesh_close(Block *block) RT_MUST_CHECK;
 
+// bicubic.c
+bool bicubic_body(Block *block) RT_MUST_CHECK;
+
 // height_field.c
 bool height_field_body(Block *block) RT_MUST_CHECK;
 bool height_field_close(Block *block) RT_MUST_CHECK;
@@ -383,6 +386,9 @@ bool polygon_box(const void *object, OwnBox *own) RT_MUST_CHECK;
 // text.c: letters, as a union of prisms
 bool text_body(Block *block) RT_MUST_CHECK;
 
+// bicubic.c
+bool bicubic_box(const void *object, OwnBox *own);
+
 // shape.c
 // At the closing brace of any shape.
 bool shape_close(Block *block) RT_MUST_CHECK;
@@ -399,6 +405,8 @@ ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Tran
                        Part *part);
 // When all is said of a shape: signs that do not count are dropped. False: there is no such shape.
 bool shape_settle(SchemaKind kind, Desc *record) RT_MUST_CHECK;
+// That of a bicubic patch, in bicubic.c, whose mesh the scene then has; SHAPE_NOTHING: it has no surface.
+ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *transform, Part *part) RT_MUST_CHECK;
 // The radius of a sphere under a transform; false when it is no sphere any more.
 bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.

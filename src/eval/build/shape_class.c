@@ -397,6 +397,7 @@ static const ShapeClass classes[KIND_COUNT] = {
                               .corners_at = offsetof(SmoothTriangleDesc, corners)},
     [KIND_MESH] = {.form = mesh_form, .has_inside = mesh_has_inside, .holds = mesh_has, .box = mesh_box},
     [KIND_MESH2] = {.form = mesh_form, .has_inside = mesh_has_inside, .holds = mesh_has, .box = mesh_box},
+    [KIND_BICUBIC_PATCH] = {.is_flat = true, .box = bicubic_box}, // it is made by bicubic_make
     [KIND_HEIGHT_FIELD] = {.form = field_form, .holds = mesh_has, .box = field_box},
 };
 
