@@ -171,7 +171,8 @@ static void dump_lists(const Scene *scene, const Part *part, const Mesh *mesh, T
     }
 }
 
-// Heights as a spline through the middles of their steps, row by row as in a picture, and a function that cuts them down.
+// Heights as a spline through the middles of their steps, row by row as in a picture, and a function that cuts them
+// down.
 static void dump_heights(const Mesh *mesh, TextBuffer *out)
 {
     const MeshField *field = mesh->field;

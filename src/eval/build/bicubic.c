@@ -128,8 +128,8 @@ static bool add_corner(PatchDrawing *drawing, double across, double along)
 static void add_face(Mesh *mesh, uint32_t first, uint32_t second, uint32_t third)
 {
     Vec3 p = mesh_vector(mesh->vertices[first]);
-    Vec3 normal = vec3_cross(vec3_sub(mesh_vector(mesh->vertices[second]), p),
-                             vec3_sub(mesh_vector(mesh->vertices[third]), p));
+    Vec3 normal =
+        vec3_cross(vec3_sub(mesh_vector(mesh->vertices[second]), p), vec3_sub(mesh_vector(mesh->vertices[third]), p));
     if (!vec3_equal(normal, vec3(0.0, 0.0, 0.0))) {
         uint32_t *face = mesh->faces[mesh->face_count++];
         face[0] = first;
@@ -152,10 +152,9 @@ static bool draw(PatchDrawing *drawing, const PatchPiece *piece)
                           (int)drawing->pieces_most);
     }
     uint32_t first = mesh->vertex_count;
-    bool is_fine = add_corner(drawing, piece->low[0], piece->low[1]) &&
-                   add_corner(drawing, piece->low[0], piece->high[1]) &&
-                   add_corner(drawing, piece->high[0], piece->high[1]) &&
-                   add_corner(drawing, piece->high[0], piece->low[1]);
+    bool is_fine =
+        add_corner(drawing, piece->low[0], piece->low[1]) && add_corner(drawing, piece->low[0], piece->high[1]) &&
+        add_corner(drawing, piece->high[0], piece->high[1]) && add_corner(drawing, piece->high[0], piece->low[1]);
     if (is_fine) {
         add_face(mesh, first, first + 1, first + 2);
         add_face(mesh, first, first + 2, first + 3);
@@ -287,11 +286,20 @@ static bool read_words(Block *block, PatchDesc *patch)
     for (const AstNode *item; (item = cursor_peek(&block->cursor)) && item->kind == AST_WORD;) {
         double type = 0.0, *into;
         switch ((Word)item->symbol) {
-        case W_type: into = &type; break;
-        case W_flatness: into = &patch->flatness; break;
-        case W_u_steps: into = &patch->steps[0]; break;
-        case W_v_steps: into = &patch->steps[1]; break;
-        default: into = NULL;
+        case W_type:
+            into = &type;
+            break;
+        case W_flatness:
+            into = &patch->flatness;
+            break;
+        case W_u_steps:
+            into = &patch->steps[0];
+            break;
+        case W_v_steps:
+            into = &patch->steps[1];
+            break;
+        default:
+            into = NULL;
         }
         if (!into) {
             break;

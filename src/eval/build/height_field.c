@@ -66,9 +66,12 @@ static bool begin(Block *block, double columns, double rows, Span span)
 static double sample_of(const Picture *picture, size_t i)
 {
     switch (picture->depth) {
-    case PICTURE_DEPTH_8: return (double)picture->decoded[((const uint8_t *)picture->samples)[i]];
-    case PICTURE_DEPTH_16: return (double)picture->decoded[((const uint16_t *)picture->samples)[i]];
-    default: return (double)((const float *)picture->samples)[i];
+    case PICTURE_DEPTH_8:
+        return (double)picture->decoded[((const uint8_t *)picture->samples)[i]];
+    case PICTURE_DEPTH_16:
+        return (double)picture->decoded[((const uint16_t *)picture->samples)[i]];
+    default:
+        return (double)((const float *)picture->samples)[i];
     }
 }
 
@@ -83,9 +86,8 @@ static uint16_t picture_height(const Picture *picture, size_t pixel)
         return code_of(floor(first * 65535.0 + SLACK));
     }
     double green = sample_of(picture, at + 1);
-    return picture->depth == PICTURE_DEPTH_16
-               ? code_of(grey_of(first, green, sample_of(picture, at + 2)) * 65535.0)
-               : code_of(floor(first * 65280.0 + green * 255.0 + SLACK));
+    return picture->depth == PICTURE_DEPTH_16 ? code_of(grey_of(first, green, sample_of(picture, at + 2)) * 65535.0)
+                                              : code_of(floor(first * 65280.0 + green * 255.0 + SLACK));
 }
 
 // The top row is the last one of the field.
