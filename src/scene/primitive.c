@@ -406,10 +406,11 @@ static bool solid_mesh_holds(const Part *part, Vec3 p)
     return mesh_holds(part->mesh.mesh, p);
 }
 
-// What is below a field of heights is inside, however deep.
+// What is below a field of heights is inside, however deep; but what it clips is in POV-Ray's box of it.
 static double solid_mesh_support(const Part *part, Vec3 n)
 {
-    bool is_endless = part->mesh.mesh->field && part->node != NODE_NONE && n.y < 0.0;
+    bool is_cut = part->node != NODE_NONE && !(part->flags & PART_UNSEEN);
+    bool is_endless = part->mesh.mesh->field && is_cut && n.y < 0.0;
     return is_endless ? (double)INFINITY : box_support(part, n);
 }
 

@@ -883,8 +883,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                            .is_object = true,
                            .is_declarable = true,
                            .groups = {LIST(height_field_properties), OBJECT_GROUPS},
-                           .doc = "A picture, or `function` with two numbers and `{ … }`: heights from 0 to 1 over x "
-                                  "and z; see \"Height fields\"."},
+                           .doc = "A picture, or `function` with two numbers and `{ … }`: heights over x "
+                                  "and z from 0 to 1; see \"Height fields\"."},
     [KIND_BICUBIC_PATCH] = {.word = "bicubic_patch",
                             .what = "a bicubic patch",
                             .size = sizeof(PatchDesc),

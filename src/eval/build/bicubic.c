@@ -283,7 +283,8 @@ static bool read_number(Block *block, const char *word, double *number)
 static bool read_words(Block *block, PatchDesc *patch)
 {
     bool has_type = false;
-    for (const AstNode *item; (item = cursor_peek(&block->cursor)) && item->kind == AST_WORD;) {
+    for (const AstNode *item;
+         (item = cursor_peek(&block->cursor)) && item->kind == AST_WORD && !block->cursor.has_comma;) {
         double type = 0.0, *into;
         switch ((Word)item->symbol) {
         case W_type:
@@ -366,5 +367,7 @@ static bool read_points(Block *block, PatchDesc *patch)
 bool bicubic_body(Block *block)
 {
     PatchDesc *patch = &block->record->patch;
-    return read_words(block, patch) && pass_uv_vectors(block) && read_points(block, patch);
+    bool has_words = read_words(block, patch);
+    cursor_take_comma(&block->cursor);
+    return has_words && pass_uv_vectors(block) && read_points(block, patch);
 }

@@ -141,14 +141,22 @@ static bool read_picture(Block *block, PictureFormat format)
 
 // ---- functions
 
+static double kept_of(double colour)
+{
+    return (double)(float)((double)code_of((double)((float)colour * 65535.0F)) / 65535.0);
+}
+
 static bool function_height(Block *block, const Function *function, const double place[3], Span span, uint16_t *height)
 {
     double v[5] = {0.0};
     if (!eval_step(block->ev, span) || function_apply(block->ev, function, place, span, v) == 0) {
         return false;
     }
-    float value = (float)(function->kind == FUNCTION_PIGMENT ? grey_of(v[0], v[1], v[2]) : v[0]);
-    *height = code_of((double)(value * 65535.0F));
+    if (function->kind == FUNCTION_PIGMENT) { // a picture of 16 bits is made of it
+        *height = code_of(grey_of(kept_of(v[0]), kept_of(v[1]), kept_of(v[2])) * 65535.0);
+    } else {
+        *height = code_of((double)((float)v[0] * 65535.0F));
+    }
     return true;
 }
 
