@@ -86,7 +86,7 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token HASH_STATISTICS "#statistics"
 %token HASH_FOPEN "#fopen" HASH_FCLOSE "#fclose" HASH_READ "#read" HASH_WRITE "#write"
 
-%type <node> item block layer entry array function directive simple declare assignment conditional message file case
+%type <node> item block layer entry array function field_size directive simple declare assignment conditional message file case
 %type <node> otherwise parameter
 %type <node> value initialiser unreadable
 %type <node> full logic relation sum indexed inline include target subject condition
@@ -293,10 +293,18 @@ function:
     { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$, EMPTY, $function_body, EMPTY); }
 | FUNCTION '(' parameters ')' '{' function_body '}'
     { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$, $parameters, $function_body, EMPTY); }
-| FUNCTION NUMBER[w] ',' NUMBER[h] '{' function_body '}'
-    { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$,
-                 ast_append(ONE(ast_number(&state->builder, $w, @w)), ast_number(&state->builder, $h, @h)),
-                 $function_body, EMPTY); }
+| FUNCTION field_size[w] ',' field_size[h] '{' function_body '}'
+    { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$, EMPTY, $function_body, ast_append(ONE($w), $h)); }
+;
+
+// How many values a field has along one side. One in parentheses would look like a list of parameters.
+field_size:
+  NUMBER                            { $$ = ast_number(&state->builder, $NUMBER, @$); }
+| NAME                              { $$ = grammar_name(state, $NAME, @$); }
+| field_size[l] '+' field_size[r]   { $$ = FOLD(BINARY(ADD, @$, $l, $r)); }
+| field_size[l] '-' field_size[r]   { $$ = FOLD(BINARY(SUB, @$, $l, $r)); }
+| field_size[l] '*' field_size[r]   { $$ = FOLD(BINARY(MUL, @$, $l, $r)); }
+| field_size[l] '/' field_size[r]   { $$ = FOLD(BINARY(DIV, @$, $l, $r)); }
 ;
 
 function_body:

@@ -368,6 +368,7 @@ AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.
 lang_cases = \
   %D%/lang/arrays.test \
+  %D%/lang/bicubic.test \
   %D%/lang/camera.test \
   %D%/lang/colours.test \
   %D%/lang/declare.test \
@@ -378,6 +379,7 @@ lang_cases = \
   %D%/lang/files.test \
   %D%/lang/finish.test \
   %D%/lang/functions.test \
+  %D%/lang/height_field.test \
   %D%/lang/hints.test \
   %D%/lang/includes.test \
   %D%/lang/interior.test \

@@ -49,6 +49,30 @@ syn keyword rtlangWord spotlight spotted strength sturm superellipsoid text text
 syn keyword rtlangWord threshold tiff tightness tiles toroidal torus transform translate triangle
 syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
 syn keyword rtlangWord variance warp waves wood wrinkles
+syn keyword rtlangWord aperture area_light assumed_gamma average background bicubic_patch black_hole blob
+syn keyword rtlangWord blur_samples bounded_by box boxed bozo brick brick_size brilliance bump_size bumps
+syn keyword rtlangWord camera caustics cells charset checker circular clipped_by color_map colour_map
+syn keyword rtlangWord component cone confidence conserve_energy control0 control1 crackle crand cubic
+syn keyword rtlangWord cubic_wave cylinder cylindrical dents difference diffuse direction disc dist_exp
+syn keyword rtlangWord distance emission exponent exr fade_color fade_colour fade_distance fade_power falloff
+syn keyword rtlangWord finish fisheye flip focal_point fog fog_alt fog_offset fog_type form frequency fresnel
+syn keyword rtlangWord gamma global_settings gradient granite hdr height_field hexagon hf_gray_16 hierarchy
+syn keyword rtlangWord hollow image_map inside_vector interior interpolate intersection inverse ior irid
+syn keyword rtlangWord irid_wavelength jitter jpeg julia lambda leopard light_source location look_at
+syn keyword rtlangWord looks_like major_radius mandel map_type marble material matrix max_intersections
+syn keyword rtlangWord max_trace_level media_attenuation media_interaction merge mesh mesh2 metallic metric
+syn keyword rtlangWord mm_per_unit mortar no_bump_scale no_image no_radiosity no_reflection no_shadow
+syn keyword rtlangWord noise_generator normal normal_map number_of_waves object octaves offset omega omnimax
+syn keyword rtlangWord once onion open orient orientation orthographic panoramic parallel pattern perspective
+syn keyword rtlangWord pgm phase phong phong_size pigment pigment_map pigment_pattern planar plane png
+syn keyword rtlangWord point_at poly poly_wave polygon ppm premultiplied prism quadric quartic quick_color
+syn keyword rtlangWord quick_colour quilted radial radius ramp_wave reflection reflection_exponent refraction
+syn keyword rtlangWord repeat right ripples rotate roughness scale scallop_wave shadowless sine_wave sky
+syn keyword rtlangWord sky_sphere slope_map smooth smooth_triangle solid specular sphere spherical spiral1
+syn keyword rtlangWord spiral2 split_union spotlight spotted strength sturm text texture texture_map tga
+syn keyword rtlangWord thickness threshold tiff tightness tiles toroidal torus transform translate triangle
+syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
+syn keyword rtlangWord variance warp water_level waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

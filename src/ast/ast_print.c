@@ -30,10 +30,12 @@ static void print_function(Printer *printer, const AstNode *node, int indent)
 {
     printer_put(printer, "function");
     if (node->a) {
-        bool sizes = node->a->kind == AST_NUMBER;
-        printer_put(printer, sizes ? " " : "(");
+        printer_put(printer, "(");
         printer_list(printer, node->a, indent);
-        printer_put(printer, sizes ? "" : ")");
+        printer_put(printer, ")");
+    } else if (node->c) {
+        printer_put(printer, " ");
+        printer_list(printer, node->c, indent);
     }
     printer_put(printer, " { ");
     if (node->b && printer_is_expression(node->b)) {

@@ -283,7 +283,17 @@ typedef struct MeshDesc {
     const MeshCorners *corners;
     uint32_t single_count, corner_count;
     Vec3 inside_vector;
+    bool is_smooth; // of a height field, as is `water`
+    double water;
 } MeshDesc;
+
+// A bicubic patch becomes a mesh where it is placed.
+typedef struct PatchDesc {
+    ObjectPart part;
+    Vec3 points[4][4]; // four rows; u_steps halves from row to row, v_steps within the rows
+    double flatness;
+    double steps[2]; // u_steps, v_steps: whole numbers
+} PatchDesc;
 
 struct UnionMember {
     UnionMember *next;
@@ -401,6 +411,7 @@ typedef union Desc {
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     MeshDesc mesh;
+    PatchDesc patch;
     UnionDesc group;
     BackgroundDesc background;
     SkySphereDesc sky;

@@ -171,8 +171,39 @@ static void dump_lists(const Scene *scene, const Part *part, const Mesh *mesh, T
     }
 }
 
+// Heights as a spline through the middles of their steps, row by row as in a picture, and a function that cuts them
+// down.
+static void dump_heights(const Mesh *mesh, TextBuffer *out)
+{
+    const MeshField *field = mesh->field;
+    text_printf(out, "#declare Heights%lu = function { spline { linear_spline", (unsigned long)mesh->number + 1);
+    for (size_t i = 0; i < (size_t)field->columns * field->rows; i++) {
+        size_t row = field->rows - 1 - i / field->columns;
+        double height = (double)field->heights[row * field->columns + i % field->columns];
+        text_printf(out, "%s%zu, ", i == 0 ? " " : i % 4 == 0 ? ",\n  " : ", ", i);
+        dump_numbers(out, (double[]){(height + 0.5) / 65535.0, 0.0}, 2);
+    }
+    text_append(out, " } }\n");
+}
+
+static void dump_field(const Mesh *mesh, TextBuffer *out)
+{
+    const MeshField *field = mesh->field;
+    unsigned long columns = field->columns, rows = field->rows;
+    text_printf(out,
+                "height_field {\n  function %lu, %lu { Heights%lu(floor(x*%lu + 0.5) + floor(y*%lu + 0.5)*%lu).x }\n",
+                columns, rows, (unsigned long)mesh->number + 1, columns - 1, rows - 1, columns);
+    text_append(out, field->normals ? "  smooth\n" : "");
+    dump_number(out, "  water_level ", field->water);
+    text_append(out, "\n");
+}
+
 static void dump_mesh(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
 {
+    if (mesh->field) {
+        dump_field(mesh, out);
+        return;
+    }
     bool is_mixed = mesh->face_normals && has_flat_face(mesh);
     if (is_mixed) {
         dump_triangles(scene, part, mesh, out);
@@ -189,6 +220,9 @@ void dump_meshes(const Scene *scene, TextBuffer *out)
 {
     for (size_t i = 0; i < scene->meshes.count; i++) {
         const Mesh *mesh = scene->meshes.items[i];
+        if (mesh->field) {
+            dump_heights(mesh, out);
+        }
         if (!mesh->face_textures) {
             text_printf(out, "#declare Mesh%lu = ", (unsigned long)mesh->number + 1);
             dump_mesh(scene, NULL, mesh, out);

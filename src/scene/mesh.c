@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "scene/mesh_field.h"
 #include "scene/mesh_ray.h"
 
 Mesh *mesh_new(void)
@@ -23,12 +24,20 @@ void mesh_free(Mesh *mesh)
         free(mesh->normals);
         free(mesh->faces);
         free(mesh->face_textures);
+        if (mesh->field) {
+            free(mesh->field->heights);
+            free(mesh->field->normals);
+            free(mesh->field);
+        }
         free(mesh);
     }
 }
 
 size_t mesh_bytes(const Mesh *mesh)
 {
+    if (mesh->field) {
+        return mesh_field_bytes(mesh->field->columns, mesh->field->rows, mesh->field->normals);
+    }
     bool has_own = mesh->face_normals && mesh->face_normals != mesh->faces;
     return sizeof *mesh + mesh->vertex_count * sizeof *mesh->vertices + mesh->normal_count * sizeof *mesh->normals +
            mesh->face_count * (sizeof *mesh->faces + (has_own ? sizeof *mesh->face_normals : 0) +
@@ -77,6 +86,9 @@ bool mesh_is_valid(const Mesh *mesh)
 
 bool mesh_holds(const Mesh *mesh, Vec3 point)
 {
+    if (mesh->field) {
+        return mesh_field_holds(mesh->field, point);
+    }
     bool is_inside = false;
     MeshRay ray = mesh_ray_make(&(Ray){point, mesh->inside_vector});
     for (uint32_t face = 0; mesh->has_inside && face < mesh->face_count; face++) {

@@ -19,6 +19,16 @@ enum {
     MESH_FACES_MOST = 1 << 28, // what a tree of them has room for
 };
 
+// The field of heights that a mesh is made of: vertices over a grid of columns in x and rows in z, each from 0 to 1,
+// with heights of 16 bits in y. What is below its surface or its water is inside, however deep, and nothing beside it
+// is.
+typedef struct MeshField {
+    uint32_t columns, rows; // each at least 2
+    uint16_t *heights;      // of 65536; row by row from z = 0 on; owned
+    int16_t (*normals)[3];  // of 32767, where a column, a row and a height are 1 each; NULL: faces are flat; owned
+    double water;           // no surface lies below this height
+} MeshField;
+
 typedef struct Mesh {
     uint32_t vertex_count, normal_count, face_count, texture_count;
     float (*vertices)[3];
@@ -27,9 +37,10 @@ typedef struct Mesh {
     uint32_t (*face_normals)[3]; // three of the normals each, or MESH_FLAT; NULL: all are flat; may be `faces`
     uint32_t *face_textures;     // from 1 on; 0: that of the mesh; NULL: all have that
     Vec3 inside_vector;
-    bool has_inside; // what an odd number of faces is before, along inside_vector
-    Vec3 low, high;  // of the vertices that faces have
-    uint32_t number; // among those of Scene.meshes whose faces have no textures of their own
+    bool has_inside;  // what an odd number of faces is before, along inside_vector
+    Vec3 low, high;   // of the vertices that faces have
+    MeshField *field; // NULL: none; owned. Faces have no normals then
+    uint32_t number;  // among those of Scene.meshes whose faces have no textures of their own
     uint64_t source;
 } Mesh;
 

@@ -498,6 +498,14 @@ static bool solid_mesh_holds(const Part *part, Vec3 p)
     return mesh_holds(part->mesh.mesh, p);
 }
 
+// What is below a field of heights is inside, however deep; but what it clips is in POV-Ray's box of it.
+static double solid_mesh_support(const Part *part, Vec3 n)
+{
+    bool is_cut = part->node != NODE_NONE && !(part->flags & PART_UNSEEN);
+    bool is_endless = part->mesh.mesh->field && is_cut && n.y < 0.0;
+    return is_endless ? (double)INFINITY : box_support(part, n);
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -689,7 +697,7 @@ static const PrimitiveClass classes[] = {
                          .interval_count = 2,
                          .is_mesh = true,
                          .is_sized = true,
-                         .support = box_support,
+                         .support = solid_mesh_support,
                          .holds = solid_mesh_holds,
                                .measure = box_measure},
 };

@@ -524,7 +524,7 @@ bool scene_add_leaf(Scene *scene, const Part *part)
 // What a ray keeps of each interval of its line in a part: as an interval, and in a composite as two crossings.
 enum { INTERVAL_STACK = 96, CROSSINGS_STACK = 2 * 40 };
 // And of a mesh, which it looks for along its line.
-enum { MESH_CURSOR_STACK = 1020 };
+enum { MESH_CURSOR_STACK = 1056 };
 
 static size_t part_stack(const Part *part)
 {

@@ -365,6 +365,16 @@ static const SchemaProperty mesh_properties[] = {
 
 static const MeshDesc mesh_defaults = {.part = OBJECT_PART};
 
+static const PatchDesc patch_defaults = {.part = OBJECT_PART};
+
+static const SchemaProperty height_field_properties[] = {
+    {"smooth", TYPE_FLAG, AT(MeshDesc, is_smooth), .is_leading = true,
+     .doc = "it is lit as if its normal went over from height to height"},
+    {"water_level", TYPE_NUMBER, AT(MeshDesc, water), .is_leading = true,
+     .doc = "nothing is seen of it below this height"},
+    {"hierarchy", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: there is always a tree"},
+};
+
 static const SchemaProperty smooth_triangle_arguments[] = {
     {"first corner", TYPE_VECTOR, AT(SmoothTriangleDesc, corners[0]), .doc = "in any order"},
     {"first normal", TYPE_VECTOR, AT(SmoothTriangleDesc, normals[0]), .doc = "there; 0: not drawn"},
@@ -900,6 +910,24 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                     .is_declarable = true,
                     .groups = {LIST(mesh_properties), OBJECT_GROUPS},
                     .doc = "The same by lists of corners and faces, which stand first: see \"Meshes\"."},
+    [KIND_HEIGHT_FIELD] = {.word = "height_field",
+                           .what = "a height field",
+                           .size = sizeof(MeshDesc),
+                           .defaults = &mesh_defaults,
+                           .is_object = true,
+                           .is_declarable = true,
+                           .groups = {LIST(height_field_properties), OBJECT_GROUPS},
+                           .doc = "A picture, or `function` with two numbers and `{ … }`: heights over x "
+                                  "and z from 0 to 1; see \"Height fields\"."},
+    [KIND_BICUBIC_PATCH] = {.word = "bicubic_patch",
+                            .what = "a bicubic patch",
+                            .size = sizeof(PatchDesc),
+                            .defaults = &patch_defaults,
+                            .is_object = true,
+                            .is_declarable = true,
+                            .groups = {OBJECT_GROUPS},
+                            .doc = "`type`, `flatness`, `u_steps` and `v_steps` with numbers, then four rows of four "
+                                   "points; see \"Meshes\"."},
     [KIND_UNION] = {.word = "union",
                     .what = "a union",
                     .size = sizeof(UnionDesc),
@@ -1109,8 +1137,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 };
 
 static const SchemaUnsupported unsupported[] = {
-    {"bicubic_patch", true, NULL, NULL},
-    {"height_field", true, NULL, NULL},
     {"isosurface", true, NULL, NULL},
     {"julia_fractal", true, NULL, NULL},
     {"light_group", true, "use a `union`", "its lights and shapes"},

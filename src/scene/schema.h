@@ -40,6 +40,8 @@ typedef enum SchemaKind {
     KIND_SMOOTH_TRIANGLE,
     KIND_MESH,
     KIND_MESH2,
+    KIND_HEIGHT_FIELD,
+    KIND_BICUBIC_PATCH,
     KIND_UNION,
     KIND_MERGE,
     KIND_INTERSECTION,
@@ -158,6 +160,7 @@ typedef struct SchemaProperty {
     uint16_t given;    // offset of a bool that turns true; 0: none
     bool is_optional;  // an argument that may be left out
     bool is_first;     // stands before every other item of the block
+    bool is_leading;   // stands before every other item that does not
     bool is_anywhere;  // an optional argument that may also stand among the properties, again and again
     double bare;       // TYPE_OPTIONAL_NUMBER without a number
     SchemaRange range; // of numbers

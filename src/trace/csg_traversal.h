@@ -8,6 +8,8 @@
 #ifndef TRACE_CSG_TRAVERSAL_H
 #define TRACE_CSG_TRAVERSAL_H
 
+#include "math/extreme.h"
+#include "scene/mesh_field.h"
 #include "trace/csg_parts.h"
 
 typedef struct Crossing {
@@ -249,7 +251,7 @@ static bool face_is_past(const CsgTraversal *p, uint32_t index, double t, uint32
                        !(t > mesh_crossing_error(solid, p->ray, &p->objects[index], t, face) + p->start_error));
 }
 
-// A mesh of a traversal, for mesh_count.
+// A mesh of a traversal, for mesh_ahead.
 typedef struct TraversalMesh {
     const CsgTraversal *p;
     uint32_t index;
@@ -258,7 +260,9 @@ typedef struct TraversalMesh {
 static bool mesh_is_past(const void *client, double t, uint32_t face)
 {
     const TraversalMesh *mesh = client;
-    return face_is_past(mesh->p, mesh->index, t, face);
+    const Solid *solid = traversal_solid(mesh->p, mesh->index);
+    return !mesh_shows(solid->mesh.table, &mesh->p->objects[mesh->index], t) ||
+           face_is_past(mesh->p, mesh->index, t, face);
 }
 
 // The next crossing behind the cursor that the ray has not passed. False: there is none.
@@ -267,28 +271,156 @@ static bool traversal_find_face(CsgTraversal *p, uint32_t index, double *t)
     const Solid *solid = traversal_solid(p, index);
     MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
     while (mesh_next(solid, cursor, t)) {
-        if (!face_is_past(p, index, *t, cursor->face)) {
+        if (mesh_shows(solid->mesh.table, &p->objects[index], *t) && !face_is_past(p, index, *t, cursor->face)) {
             return true;
         }
     }
     return false;
 }
 
-static void traversal_next_face(CsgTraversal *p, uint32_t index)
+// A crossing of a mesh with a face, or with a side of a field of heights, where `error` is how far t may be off.
+static void traversal_add_face(CsgTraversal *p, uint32_t index, double t, uint32_t face, double error)
 {
     const Solid *solid = traversal_solid(p, index);
     MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
-    double t;
-    if (!traversal_find_face(p, index, &t)) {
-        return;
-    }
     bool is_film = solid_is_flat(solid);
     traversal_add(p, index, t, (double)INFINITY, 0, !is_film && cursor->is_inside, is_film);
     Crossing *added = &p->crossings[p->count - 1];
-    added->face = cursor->face;
-    added->error = added->bound = mesh_crossing_error(solid, p->ray, &p->objects[index], t, cursor->face);
+    added->face = face;
+    added->error = added->bound = error;
     added->has_error = added->has_bound = true;
+    added->has_surface = added->has_surface && face != MESH_SIDE;
     cursor->is_inside = !cursor->is_inside;
+}
+
+static double traversal_side_error(const CsgTraversal *p, uint32_t index, double t, int axis)
+{
+    Vec3 normal = vec3(axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0);
+    return solid_plane_error(traversal_solid(p, index), p->ray, &p->objects[index], t, normal);
+}
+
+// Adds where a ray comes through a side or the water of a field of heights.
+static void traversal_add_side(CsgTraversal *p, uint32_t index, double t, int axis)
+{
+    traversal_add_face(p, index, t, MESH_SIDE, traversal_side_error(p, index, t, axis));
+}
+
+static void traversal_next_face(CsgTraversal *p, uint32_t index)
+{
+    const Solid *solid = traversal_solid(p, index);
+    MeshCursor *cursor = &p->cursors[solid->mesh.cursor], before = *cursor;
+    bool is_field = solid->mesh.table->mesh->field;
+    double t;
+    if (cursor->is_left) {
+        return;
+    }
+    bool is_found = traversal_find_face(p, index, &t);
+    if (is_field && cursor->water < (is_found ? t : (double)INFINITY)) {
+        *cursor = before;
+        cursor->water = (double)INFINITY;
+        traversal_add_side(p, index, before.water, 1);
+    } else if (is_found) {
+        traversal_add_face(p, index, t, cursor->face,
+                           mesh_crossing_error(solid, p->ray, &p->objects[index], t, cursor->face));
+    } else if (is_field) {
+        cursor->is_left = true;
+        if (cursor->is_inside && !isinf(cursor->leave)) {
+            traversal_add_side(p, index, cursor->leave, cursor->leave_axis);
+        }
+    }
+}
+
+// ---- fields of heights: what is below one, between its four sides, is inside
+
+// Where the ray is over or below a field: from `enter` to `leave`, across the axes x (0) or z (2).
+typedef struct FieldWay {
+    double enter, leave;
+    int enter_axis, leave_axis;
+} FieldWay;
+
+static void way_narrow(FieldWay *way, double origin, double direction, int axis)
+{
+    if (direction == 0.0) {
+        way->leave = origin >= 0.0 && origin < 1.0 ? way->leave : -(double)INFINITY;
+        return;
+    }
+    double a = (0.0 - origin) / direction, b = (1.0 - origin) / direction;
+    double enter = a < b ? a : b, leave = a < b ? b : a;
+    way->enter_axis = enter > way->enter ? axis : way->enter_axis;
+    way->leave_axis = leave < way->leave ? axis : way->leave_axis;
+    way->enter = enter > way->enter ? enter : way->enter;
+    way->leave = leave < way->leave ? leave : way->leave;
+}
+
+static FieldWay field_way(const Ray *object)
+{
+    FieldWay way = {-(double)INFINITY, (double)INFINITY, 0, 0};
+    way_narrow(&way, object->origin.x, object->direction.x, 0);
+    way_narrow(&way, object->origin.z, object->direction.z, 2);
+    return way;
+}
+
+// Whether a ray is below the field at the beginning of its way. It is known in the middle of the way to the first
+// crossing, or behind the last one, if that is longer: each crossing changes it.
+static bool way_begins_below(const MeshField *field, const Ray *object, double enter, double leave,
+                             const MeshAhead *ahead)
+{
+    double first = ahead->count > 0 ? ahead->first : leave, last = ahead->count > 0 ? ahead->last : enter;
+    bool is_odd = ahead->count % 2 == 1;
+    if (isinf(leave)) { // straight up or down
+        return (object->direction.y < 0.0) != is_odd;
+    }
+    if (leave - last > first - enter) {
+        double t = last + (leave - last) / 2.0;
+        return mesh_field_holds(field, vec3_add_scaled(object->origin, t, object->direction)) != is_odd;
+    }
+    return mesh_field_holds(field, vec3_add_scaled(object->origin, enter + (first - enter) / 2.0, object->direction));
+}
+
+static bool side_is_past(const CsgTraversal *p, uint32_t index, double t, int axis)
+{
+    return !(t > 0.0) || (starts_beside(p->table, p->start, traversal_solid(p, index)) &&
+                          !(t > traversal_side_error(p, index, t, axis) + p->start_error));
+}
+
+// Where a ray comes through water on its way; infinite: nowhere, or it has passed that.
+static double field_water(const CsgTraversal *p, uint32_t index, double enter, double leave)
+{
+    const MeshField *field = traversal_solid(p, index)->mesh.table->mesh->field;
+    const Ray *object = &p->objects[index];
+    double t = (field->water - object->origin.y) / object->direction.y;
+    Vec3 point = vec3_add_scaled(object->origin, t, object->direction);
+    bool is_met = t > enter && t < leave && mesh_field_is_over(point) && mesh_field_height(field, point) < field->water;
+    return is_met && !side_is_past(p, index, t, 1) ? t : (double)INFINITY;
+}
+
+// Sets where the ray leaves; whether it starts inside; and adds where it comes inside through a side.
+static void traversal_field_begin(CsgTraversal *p, uint32_t index, MeshAhead *ahead)
+{
+    const Solid *solid = traversal_solid(p, index);
+    const Ray *object = &p->objects[index];
+    MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
+    FieldWay way = field_way(object);
+    cursor->leave = way.leave;
+    cursor->leave_axis = way.leave_axis;
+    cursor->is_left = !(way.leave > way.enter) || side_is_past(p, index, way.leave, way.leave_axis);
+    if (cursor->is_left) {
+        return;
+    }
+    bool is_entered = side_is_past(p, index, way.enter, way.enter_axis);
+    way.enter = is_entered ? 0.0 : way.enter;
+    cursor->water = field_water(p, index, way.enter, way.leave);
+    if (cursor->water < (double)INFINITY) {
+        *ahead = (MeshAhead){ahead->count + 1, less_of(ahead->first, cursor->water),
+                             greater_of(ahead->last, cursor->water)};
+    }
+    bool is_below = way_begins_below(solid->mesh.table->mesh->field, object, way.enter, way.leave, ahead);
+    p->is_inside[index] = cursor->is_inside = is_entered && is_below;
+    if (!is_entered && is_below) {
+        traversal_add_side(p, index, way.enter, way.enter_axis);
+    } else {
+        traversal_next_face(p, index);
+    }
 }
 
 // The ray starts inside if the number of crossings that are left is odd.
@@ -299,9 +431,15 @@ static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
     p->objects[index] = solid_ray(solid, p->ray);
     *cursor = (MeshCursor){.face = MESH_NO_FACE};
     mesh_query_make(&cursor->query, &p->objects[index]);
-    bool is_inside =
-        !solid_is_flat(solid) && mesh_count(solid, cursor, mesh_is_past, &(TraversalMesh){p, index}) % 2 == 1;
-    cursor->is_inside = p->is_inside[index] = is_inside;
+    MeshAhead ahead = {0, 0.0, 0.0};
+    if (!solid_is_flat(solid)) {
+        ahead = mesh_ahead(solid, cursor, mesh_is_past, &(TraversalMesh){p, index});
+    }
+    if (solid->mesh.table->mesh->field) {
+        traversal_field_begin(p, index, &ahead);
+        return;
+    }
+    cursor->is_inside = p->is_inside[index] = ahead.count % 2 == 1;
     traversal_next_face(p, index);
 }
 

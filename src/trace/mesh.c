@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "math/extreme.h"
+#include "scene/mesh_field.h"
 #include "trace/bvh_walk.h"
 
 // ---- the tree
@@ -91,6 +92,17 @@ static Vec3 face_normal(const Mesh *mesh, uint32_t face, const MeshPoint *at)
     return is_flat ? own : n;
 }
 
+static Vec3 field_normal(const Solid *solid, uint32_t face, Vec3 point)
+{
+    Vec3 normals[4], sum = vec3(0.0, 0.0, 0.0);
+    double weights[4];
+    int count = mesh_field_normals(solid->mesh.table->mesh->field, face, point, normals, weights);
+    for (int i = 0; i < count; i++) {
+        sum = vec3_add_scaled(sum, weights[i], vec3_normalize(linear_normal(&solid->to_object, normals[i])));
+    }
+    return vec3_normalize(sum);
+}
+
 void mesh_surface(const Solid *solid, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal)
 {
     const Mesh *mesh = solid->mesh.table->mesh;
@@ -104,7 +116,8 @@ void mesh_surface(const Solid *solid, const Ray *ray, uint32_t face, Vec3 *point
         own = vec3_add_scaled(own, at.weights[i], mesh_corner(mesh, face, i));
     }
     *point = vec3_add(solid->centre, linear_direction(&solid->to_world, own));
-    *normal = vec3_normalize(linear_normal(&solid->to_object, face_normal(mesh, face, &at)));
+    *normal = mesh->field ? field_normal(solid, face, own)
+                          : vec3_normalize(linear_normal(&solid->to_object, face_normal(mesh, face, &at)));
 }
 
 Vec3 mesh_plane(const Solid *solid, uint32_t shape_index)
@@ -151,26 +164,30 @@ bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t)
     return true;
 }
 
-uint32_t mesh_count(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client)
+MeshAhead mesh_ahead(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client)
 {
     const MeshTable *table = solid->mesh.table;
     const MeshQuery *query = &cursor->query;
     BvhWalk walk;
     BvhChild leaf;
-    uint32_t count = 0;
+    MeshAhead ahead = {0, (double)INFINITY, 0.0};
     if (!bvh_walk_start(&walk, &table->tree, query->ray.origin, query->ray.direction)) {
-        return 0;
+        return ahead;
     }
     while (bvh_walk_next(&walk, bvh_walk_limit(&walk, (double)INFINITY), &leaf)) {
         uint32_t first = bvh_leaf_first(leaf), end = first + bvh_leaf_count(leaf);
         for (uint32_t i = first; i < end; i++) {
             MeshPoint at;
             uint32_t own = table->faces[i];
-            count += mesh_ray_crosses(&query->shear, table->mesh, own, &at) &&
-                     is_behind(at.t, own, cursor->t, cursor->face) && !is_past(client, at.t / query->length, own);
+            if (mesh_ray_crosses(&query->shear, table->mesh, own, &at) &&
+                is_behind(at.t, own, cursor->t, cursor->face) && !is_past(client, at.t / query->length, own)) {
+                ahead.count++;
+                ahead.first = less_of(ahead.first, at.t / query->length);
+                ahead.last = greater_of(ahead.last, at.t / query->length);
+            }
         }
     }
-    return count;
+    return ahead;
 }
 
 bool mesh_is_crossed(const Solid *solid, const Ray *object)

@@ -56,6 +56,7 @@ static inline void mesh_query_make(MeshQuery *query, const Ray *object)
 enum {
     MESH_CROSSINGS = 6, // of a mesh that a ray keeps in a composite: the next, and those that come with it
     MESH_NO_FACE = UINT32_MAX,
+    MESH_SIDE = UINT32_MAX - 1, // in a face's place: a side of what lies below a field of heights, or its water
 };
 
 // No error of a crossing is taken for more than this share of its t, so that what lies behind a limit by more does not
@@ -68,14 +69,29 @@ typedef struct MeshCursor {
     double t; // of the query
     uint32_t face;
     bool is_inside;
+    bool is_left; // of a field of heights: nothing more is below or above it
+    int leave_axis;
+    double leave; // there: where the ray leaves that, in t of its own, across `leave_axis`
+    double water; // there: where it will come through water, infinite: nowhere
 } MeshCursor;
 
 // Moves the cursor to the next crossing behind it, by t, then by number; t of the ray. False: there is none.
 bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t);
 
-// How many crossings there are behind the cursor, but those of which `is_past` says that the ray has passed them.
+// The crossings that are behind the cursor, but those of which `is_past` says that the ray has passed them: how many,
+// and the least and the greatest t of the ray among them.
+typedef struct MeshAhead {
+    uint32_t count;
+    double first, last;
+} MeshAhead;
 typedef bool (*MeshIsPast)(const void *client, double t, uint32_t face); // t of the ray
-uint32_t mesh_count(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client);
+MeshAhead mesh_ahead(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client);
+
+// Of a field of heights: whether its surface is above the water at t of a ray in its space. What is below is none.
+static inline bool mesh_shows(const MeshTable *table, const Ray *object, double t)
+{
+    return !table->mesh->field || object->origin.y + t * object->direction.y >= table->mesh->field->water;
+}
 
 // Whether a ray meets any face.
 bool mesh_is_crossed(const Solid *solid, const Ray *object);

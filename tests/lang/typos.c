@@ -211,6 +211,9 @@ static void try_properties(const InternTable *names, Tally *sums)
         [KIND_SOR] = "4, <0, 0>, <1, 0>, <1, 1>, <0, 1>",
         [KIND_POLYGON] = "4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
         [KIND_MESH] = "triangle { 0, x, y }",
+        [KIND_BICUBIC_PATCH] = "type 0 0, x, 2*x, 3*x, y, x+y, 2*x+y, 3*x+y, 2*y, x+2*y, 2*x+2*y, 3*x+2*y, 3*y, x+3*y, "
+                               "2*x+3*y, 3*x+3*y",
+        [KIND_HEIGHT_FIELD] = "function 2, 2 { x }",
         [KIND_MESH2] = "vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> }",
         [KIND_BLOB_BALL] = "0, 1, 1",
         [KIND_BLOB_ROD] = "0, x, 1, 1",

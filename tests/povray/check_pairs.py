@@ -46,6 +46,8 @@ LEFT_OUT = {
     "omnimax cylinder": "tests/povray/camera_*.scn have them",
     "function pigment_pattern spiral2 warp repeat flip black_hole strength orientation dist_exp major_radius toroidal":
     "tests/povray/pattern_*.scn and warp_*.scn have them",
+    "height_field smooth water_level bicubic_patch": "tests/povray/shape_height_field*.scn and shape_bicubic*.scn have"
+    " them",
     "tiles": "tests/povray/texture_tiles*.scn have them",
     "perspective split_union": "on unless something else is said; tests/povray/*.scn have them",
     "camera light_source sphere global_settings declare": "in every scene",

@@ -77,6 +77,8 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_SUPERELLIPSOID] = superellipsoid_body,
     [KIND_MESH] = mesh_body,
     [KIND_MESH2] = mesh2_body,
+    [KIND_HEIGHT_FIELD] = height_field_body,
+    [KIND_BICUBIC_PATCH] = bicubic_body,
     [KIND_COLOUR_MAP] = pattern_map_body,
     [KIND_PIGMENT_MAP] = pattern_map_body,
     [KIND_TEXTURE_MAP] = pattern_map_body,
@@ -99,6 +101,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_WARP] = warp_close,
     [KIND_MESH] = mesh_close,
     [KIND_MESH2] = mesh_close,
+    [KIND_HEIGHT_FIELD] = height_field_close,
     [KIND_SKY_SPHERE] = sky_close,
     [KIND_FOG] = fog_close,
     [KIND_TEXTURE] = pattern_close,
@@ -414,7 +417,7 @@ static bool takes_braces(const SchemaProperty *property)
 
 static bool may_stand_here(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    if (property->is_first && (block->items > 0 || block->has_name)) {
+    if ((property->is_first || property->is_leading) && (block->items > 0 || block->has_name)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` must stand first in %s", property->word,
                            block_word(block));
     }
@@ -440,7 +443,7 @@ static void read_property(Block *block, const SchemaProperty *property, const As
 {
     bool is_allowed = may_stand_here(block, property, item);
     cursor_skip(&block->cursor);
-    block->items++;
+    block->items += !property->is_leading;
     bool is_action = property->type == TYPE_ACTION || property->type == TYPE_BLOCK;
     if (!is_allowed ||
         !(is_action ? actions[property->action](block, property, item) : block_value(block, property, item->span))) {

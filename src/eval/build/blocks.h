@@ -260,6 +260,11 @@ bool image_map_action(Block *block, const SchemaProperty *property, const AstNod
 bool image_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_body(Block *block) RT_MUST_CHECK; // of image_map
 bool image_close(Block *block) RT_MUST_CHECK;
+// The format that a word names; PICTURE_FORMATS: none.
+PictureFormat image_format(const char *word);
+// The expression that names a file stands next, and how its values are encoded may follow. PICTURE_FORMATS: its ending
+// names the format. *span: of the name.
+bool image_read_source(Block *block, PictureFormat format, PictureSource *source, Span *span) RT_MUST_CHECK;
 // A scene's record of a picture that is laid over something.
 bool image_place(Eval *ev, Scene *scene, const ImageDesc *image, uint32_t *index) RT_MUST_CHECK;
 
@@ -310,6 +315,13 @@ void mesh_blend(const MeshDesc *mesh, const MeshCorners *corners, CornerBlend *b
 bool mesh_body(Block *block) RT_MUST_CHECK;
 bool mesh2_body(Block *block) RT_MUST_CHECK;
 bool mesh_close(Block *block) RT_MUST_CHECK;
+
+// bicubic.c
+bool bicubic_body(Block *block) RT_MUST_CHECK;
+
+// height_field.c
+bool height_field_body(Block *block) RT_MUST_CHECK;
+bool height_field_close(Block *block) RT_MUST_CHECK;
 
 // object.c
 bool object_members(Block *block) RT_MUST_CHECK; // of a union
@@ -384,6 +396,9 @@ bool superellipsoid_box(const void *object, OwnBox *own);
 // text.c: letters, as a union of prisms
 bool text_body(Block *block) RT_MUST_CHECK;
 
+// bicubic.c
+bool bicubic_box(const void *object, OwnBox *own);
+
 // shape.c
 // At the closing brace of any shape.
 bool shape_close(Block *block) RT_MUST_CHECK;
@@ -400,6 +415,8 @@ ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Tran
                        Part *part);
 // When all is said of a shape: signs that do not count are dropped. False: there is no such shape.
 bool shape_settle(SchemaKind kind, Desc *record) RT_MUST_CHECK;
+// That of a bicubic patch, in bicubic.c, whose mesh the scene then has; SHAPE_NOTHING: it has no surface.
+ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *transform, Part *part) RT_MUST_CHECK;
 // The radius of a sphere under a transform; false when it is no sphere any more.
 bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.

@@ -314,8 +314,9 @@ bool extent_reaches_out(SchemaKind kind, const void *object, bool is_member)
     }
     // A member that has no end may leave the whole without one.
     // What cuts a union leaves the surfaces that its members have in one another, but one surface of the cut for all.
-    bool does = kind == KIND_DISC || kind == KIND_UNION || kind == KIND_MESH || kind == KIND_MESH2 || part->clips ||
-                part->is_inverse || (is_member && is_endless(kind, object));
+    bool does = kind == KIND_DISC || kind == KIND_UNION || kind == KIND_MESH || kind == KIND_MESH2 ||
+                kind == KIND_HEIGHT_FIELD || kind == KIND_BICUBIC_PATCH || part->clips || part->is_inverse ||
+                (is_member && is_endless(kind, object));
     const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
     for (; member && !does; member = member->next) {
         does = extent_reaches_out(member->kind, member->object, true);

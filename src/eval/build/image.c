@@ -71,11 +71,8 @@ static PictureFormat format_of_name(const char *name)
     return (PictureFormat)format;
 }
 
-// The expression that names the file stands next. PICTURE_FORMATS: its ending names the format.
-static bool read_file(Block *block, PictureFormat format)
+bool image_read_source(Block *block, PictureFormat format, PictureSource *source, Span *span)
 {
-    ImageDesc *image = &block->record->image;
-    PictureSource *source = &image->source;
     const Settings *settings = &block->ev->scene->settings;
     const AstNode *item = cursor_peek(&block->cursor);
     Value name;
@@ -100,8 +97,23 @@ static bool read_file(Block *block, PictureFormat format)
     source->is_modern = eval_knows_37(block->ev);
     source->space = settings->gamma_model == GAMMA_NONE && source->is_modern ? GAMMA_LINEAR : settings->gamma_model;
     source->space_gamma = settings->gamma_model == GAMMA_POWER ? settings->assumed_gamma : 0.0;
-    image->span = item->span;
+    *span = item->span;
     return source->path && read_encoding(block, source);
+}
+
+static bool read_file(Block *block, PictureFormat format)
+{
+    ImageDesc *image = &block->record->image;
+    return image_read_source(block, format, &image->source, &image->span);
+}
+
+PictureFormat image_format(const char *word)
+{
+    unsigned format = 0;
+    while (format < PICTURE_FORMATS && strcmp(picture_format_word((PictureFormat)format), word) != 0) {
+        format++;
+    }
+    return (PictureFormat)format;
 }
 
 // A file name without a type.
@@ -110,15 +122,6 @@ bool image_body(Block *block)
     const AstNode *item = cursor_peek(&block->cursor);
     return !item || item->kind == AST_WORD || item->kind == AST_BLOCK || !cursor_at_value(&block->cursor) ||
            (read_file(block, PICTURE_FORMATS) && (block->items++, true));
-}
-
-static bool type_action(Block *block, const SchemaProperty *property)
-{
-    unsigned format = 0;
-    while (strcmp(picture_format_word((PictureFormat)format), property->word) != 0) {
-        format++;
-    }
-    return read_file(block, (PictureFormat)format);
 }
 
 // ---- how it is laid
@@ -204,7 +207,7 @@ bool image_action(Block *block, const SchemaProperty *property, const AstNode *i
     case W_premultiplied:
         return block_fault(block, DIAG_E0256, item->span, "`%s` must stand right after the name of the file",
                            property->word);
-    default: return type_action(block, property);
+    default: return read_file(block, image_format(property->word));
     }
 }
 

@@ -171,7 +171,7 @@ static bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement
     Scene *scene = ev->scene;
     Span span = mesh->part.span;
     part->mesh.materials = scene->face_materials.count;
-    for (uint32_t i = 0; i < mesh->mesh->texture_count; i++) {
+    for (uint32_t i = 0; i < part->mesh.mesh->texture_count; i++) { // a patch's has none
         MaterialIndex material;
         CornerBlend blend;
         const TextureDesc *texture = i < mesh->single_count ? mesh->singles[i] : &blend.texture;
@@ -316,6 +316,10 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     if (branch->is_in_box && box_is_inside_out(kind, object)) {
         return box_fault(ev, common->span);
     }
+    if (kind == KIND_BICUBIC_PATCH) {
+        return eval_fault(ev, DIAG_E0362, common->span,
+                          "a bicubic_patch has no inside, and POV-Ray does not clip it: nothing can be cut with it");
+    }
     ShapeResult result = shape_make(ev, kind, object, &around->outer, false, &part);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING && grow_nothing(ev, kind, common, branch);
@@ -417,7 +421,7 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
     }
     Part shape;
     // A clip is not turned round with what it clips: what is outside of a shape reaches beyond any clip.
-    bool is_known = !object_is_group(kind) && part->is_inverse == branch.is_inverse &&
+    bool is_known = !object_is_group(kind) && kind != KIND_BICUBIC_PATCH && part->is_inverse == branch.is_inverse &&
                     shape_make(ev, kind, object, &branch.placement.outer, false, &shape) == SHAPE_MADE;
     const Part *known = is_known ? &shape : NULL;
     if (!clips_matter(ev, clips, known)) {

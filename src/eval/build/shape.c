@@ -99,11 +99,13 @@ ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Tran
                        Part *part)
 {
     const ObjectPart *common = object;
-    const char *why_nothing;
-    ShapeResult result = shape_form(kind, object, transform, is_stretched, part, &why_nothing);
+    const char *why_nothing = "a bicubic_patch has no surface: all its triangles are lines";
+    ShapeResult result = kind == KIND_BICUBIC_PATCH
+                             ? bicubic_make(ev, object, transform, part)
+                             : shape_form(kind, object, transform, is_stretched, part, &why_nothing);
     if (result == SHAPE_NOTHING) {
         eval_warn(ev, DIAG_W0348, common->span, "%s", why_nothing);
-    } else if (result == SHAPE_FAULT) {
+    } else if (result == SHAPE_FAULT && kind != KIND_BICUBIC_PATCH) {
         shape_flattened(ev, common);
     }
     return result;

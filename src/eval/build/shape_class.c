@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "eval/build/blocks.h"
+#include "math/extreme.h"
 #include "scene/polynomial.h"
 
 // Half of what a disc is thick.
@@ -337,6 +338,27 @@ static bool mesh_box(const void *object, OwnBox *own)
     return false;
 }
 
+// ---- height fields: what is seen of them is above the water
+
+static bool field_box(const void *object, OwnBox *own)
+{
+    const Mesh *mesh = ((const MeshDesc *)object)->mesh;
+    own->low = mesh->low;
+    own->high = mesh->high;
+    own->low.y = greater_of(own->low.y, mesh->field->water);
+    return false;
+}
+
+static const char *field_form(const void *object, Part *part)
+{
+    const Mesh *mesh = ((const MeshDesc *)object)->mesh;
+    OwnBox box;
+    (void)field_box(object, &box);
+    part->kind = PART_MESH_SOLID;
+    part->mesh = (PartMesh){box.low, box.high, mesh, 0};
+    return box.low.y > box.high.y ? "it is all below its water level" : NULL;
+}
+
 // ---- the table
 
 static const ShapeClass classes[KIND_COUNT] = {
@@ -378,6 +400,8 @@ static const ShapeClass classes[KIND_COUNT] = {
                               .corners_at = offsetof(SmoothTriangleDesc, corners)},
     [KIND_MESH] = {.form = mesh_form, .has_inside = mesh_has_inside, .holds = mesh_has, .box = mesh_box},
     [KIND_MESH2] = {.form = mesh_form, .has_inside = mesh_has_inside, .holds = mesh_has, .box = mesh_box},
+    [KIND_BICUBIC_PATCH] = {.is_flat = true, .box = bicubic_box}, // it is made by bicubic_make
+    [KIND_HEIGHT_FIELD] = {.form = field_form, .holds = mesh_has, .box = field_box},
 };
 
 const ShapeClass *shape_class(SchemaKind kind)

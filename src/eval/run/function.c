@@ -134,6 +134,10 @@ static bool make_of_block(Eval *ev, const AstNode *node, Function *function)
 
 bool function_create(Eval *ev, const AstNode *node, Value *value)
 {
+    if (node->c != NULL) {
+        return eval_fault(ev, DIAG_E0260, node->c->span,
+                          "a function has so many values along each side in a `height_field` only");
+    }
     if (paste_is_needed_in_function(ev, node)) {
         return !is_in_initialiser(ev) ? paste_function(ev, node, value) : initialiser_fault(ev, node->span);
     }

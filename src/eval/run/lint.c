@@ -171,7 +171,10 @@ static void walk(Eval *ev, const AstNode *node)
         }
         walk_list(ev, node->b);
         return;
-    case AST_FUNCTION: walk_list(ev, node->b); return;
+    case AST_FUNCTION:
+        walk_list(ev, node->b);
+        walk_list(ev, node->c);
+        return;
     case AST_FOR:
         walk_list(ev, node->b);
         walk_list(ev, node->c);

@@ -198,9 +198,13 @@ const AstNode *paste_arguments(Eval *ev, const AstNode *call)
 
 static bool read_function(Eval *ev, const AstNode *function, Expansion *expansion, Value *value)
 {
-    (void)function;  // The expansion holds its text.
-    const AstNode *read = reading_item(expansion, 0);
-    bool fine = read != NULL && read->kind == AST_FUNCTION && function_create(ev, read, value);
+    const AstNode *read = reading_item(expansion, 0); // the expansion holds its text
+    bool fine = read != NULL && read->kind == AST_FUNCTION;
+    if (fine) {
+        AstNode made = *read;
+        made.c = function->c; // its sizes may have been taken already
+        fine = function_create(ev, &made, value);
+    }
     const AstNode *rest = fine ? reading_item(expansion, 0) : NULL;
     bool failed = expansion->feed.failed;
     if (rest != NULL) {
