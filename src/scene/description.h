@@ -222,6 +222,25 @@ typedef struct BlobDesc {
     Numbers list; // all that a part wants of it (scene/blob.h)
 } BlobDesc;
 
+// What an isosurface is contained by; of a ball `low` is the middle.
+typedef struct ContainerDesc {
+    Vec3 low, high;
+    double radius;
+    bool is_ball, is_given;
+} ContainerDesc;
+
+typedef struct IsosurfaceDesc {
+    ObjectPart part;
+    ContainerDesc container;
+    double threshold, accuracy, max_gradient;
+    double evaluate[3]; // the first is 0: not given
+    int roots_most;
+    bool is_open;
+    const struct Function *function;
+    Numbers list; // all that a part wants of it (scene/isosurface.h)
+    const Noise *noise; // of its function, if that asks for it
+} IsosurfaceDesc;
+
 // A component while it is read.
 typedef struct BlobPartDesc {
     Transform transform;
@@ -368,6 +387,8 @@ typedef union Desc {
     PolynomialDesc polynomial;
     BlobDesc blob;
     BlobPartDesc blob_part;
+    IsosurfaceDesc isosurface;
+    ContainerDesc container;
     PrismDesc prism;
     PolygonDesc polygon;
     TriangleDesc triangle;

@@ -1,14 +1,15 @@
-// Functions as patterns see them: steps that compute one number of a point.
+// Functions as patterns and shapes see them: steps that compute one number of a point.
 //
 // A formula is a list of steps in the order in which they are done, each known by its first step. A step takes numbers
-// from the top of a stack and puts one there. Plain data without padding, kept once where equal. How steps are done is
-// the renderer's.
+// from the top of a stack and puts one there. Plain data without padding, kept once where equal.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_FORMULA_H
 #define SCENE_FORMULA_H
 
 #include <stdint.h>
+
+#include "math/noise.h"
 
 typedef enum FormulaOp {
     FORMULA_NUMBER, // puts `number`
@@ -80,5 +81,18 @@ typedef struct FormulaStep {
     uint32_t next; // the step after it, or RECORD_NONE
     uint32_t unused;
 } FormulaStep;
+
+// What formulas are done with.
+typedef struct FormulaSource {
+    const FormulaStep *steps;
+    const Noise *noise;       // NULL where no step asks for it
+    NoiseGenerator generator; // of FORMULA_NOISE
+    // What FORMULA_PATTERN and FORMULA_PIGMENT give at a point; NULL where no step is one of them.
+    double (*painted)(const void *client, const FormulaStep *step, const double *point);
+    const void *client;
+} FormulaSource;
+
+// What the formula that begins with a step gives is put at `top`, where there is room for FORMULA_STACK_MOST numbers.
+void formula_run(const FormulaSource *source, uint32_t first, const double *slots, double *top);
 
 #endif

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "scene/blob.h"
+#include "scene/isosurface.h"
 #include "scene/dump.h"
 #include "scene/part.h"
 #include "scene/polynomial.h"
@@ -332,6 +333,19 @@ static uint32_t blob_part_intervals(const Part *part)
     return part->node == NODE_NONE ? 4 : blob_interval_most(part->list.items);
 }
 
+// ---- isosurface
+
+static bool surface_holds(const Part *part, Vec3 p)
+{
+    return isosurface_holds(part->list.items, part->noise, p);
+}
+
+// Alone it is asked for the first surface only.
+static uint32_t isosurface_intervals(const Part *part)
+{
+    return part->node == NODE_NONE ? 2 : ISOSURFACE_ROOTS_MOST + 1;
+}
+
 // ---- prism and polygon
 
 static double prism_support(const Part *part, Vec3 n)
@@ -545,6 +559,19 @@ static const PrimitiveClass classes[] = {
                       .support = polygon_support,
                       .dump = outline_dump,
                       .measure = box_measure},
+    [PART_ISOSURFACE] = {.word = "isosurface",
+                         .head = "isosurface { ",
+                         .family = FAMILY_ISOSURFACE,
+                         .surface = PART_ISOSURFACE,
+                         .key_count = 3,
+                         .interval_count = 2,
+                         .interval_most = isosurface_intervals,
+                         .has_list = true,
+                         .is_sized = true,
+                         .support = box_support,
+                         .holds = surface_holds,
+                         .dump = dump_isosurface,
+                         .measure = box_measure},
     [PART_MESH] = {.word = "mesh",
                    .head = "",
                    .family = FAMILY_STRAIGHT,

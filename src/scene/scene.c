@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/primitive.h"
@@ -84,6 +85,7 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->planes);
     ARRAY_FREE(&scene->parts);
     numbers_fini(&scene->numbers);
+    free(scene->noise);
     for (size_t i = 0; i < scene->meshes.count; i++) {
         mesh_free(scene->meshes.items[i]);
     }
@@ -418,9 +420,25 @@ bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIn
     return true;
 }
 
+// Noise that a part asks for becomes the scene's.
+static bool own_noise(Scene *scene)
+{
+    if (!scene->noise) {
+        scene->noise = malloc(sizeof *scene->noise);
+        if (scene->noise) {
+            noise_init(scene->noise, NULL);
+        }
+    }
+    return scene->noise;
+}
+
 // Its list of numbers becomes the scene's.
 static bool add_part(Scene *scene, const Part *part)
 {
+    bool is_noisy = part->kind == PART_ISOSURFACE && part->noise;
+    if (is_noisy && !own_noise(scene)) {
+        return false;
+    }
     if (!ARRAY_PUSH(&scene->parts, *part)) {
         return false;
     }
@@ -428,6 +446,9 @@ static bool add_part(Scene *scene, const Part *part)
         !numbers_keep(&scene->numbers, &scene->parts.items[scene->parts.count - 1].list)) {
         scene->parts.count--;
         return false;
+    }
+    if (is_noisy) {
+        scene->parts.items[scene->parts.count - 1].noise = scene->noise;
     }
     return true;
 }

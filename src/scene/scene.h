@@ -264,6 +264,8 @@ typedef struct Plane {
 //   prism           an outline in x and z, from y = fixed[0].y to fixed[1].y, one that is conic y times as large;
 //                   fixed[] are its bounds, the list is the outline
 //   polygon         an outline of straight pieces in x and y, at z = 0
+//   isosurface      where the function of the list is at its threshold (scene/isosurface.h), within the box from fixed[0]
+//                   to fixed[1]
 //   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
 typedef enum PartKind {
     PART_SPHERE,
@@ -278,6 +280,7 @@ typedef enum PartKind {
     PART_BLOB,
     PART_PRISM,
     PART_POLYGON,
+    PART_ISOSURFACE,
     PART_MESH,
     PART_MESH_SOLID,
     PART_KINDS
@@ -322,6 +325,7 @@ typedef struct Part {
         struct { // of a kind that has a list of numbers (scene/primitive.h): its bounds or more of them, and the list
             Vec3 fixed[2];
             Numbers list; // the scene's, once the part is added: equal lists are at one place
+            const Noise *noise; // of an isosurface that asks for it; the scene's, once the part is added
         };
         PartMesh mesh; // of a mesh
     };
@@ -473,6 +477,7 @@ typedef struct Scene {
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
     NumberPool numbers; // the lists of parts
+    Noise *noise;       // of isosurfaces that ask for it, its own; NULL: none does
     ARRAY(Mesh *) meshes; // owned; parts may share one
     size_t mesh_bytes;    // of all of them
     uint32_t plain_mesh_count; // of them, without textures of their own

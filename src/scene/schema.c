@@ -296,6 +296,47 @@ static const SchemaProperty poly_arguments[] = {
     {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
 };
 
+// ---- isosurface
+
+static const SchemaProperty isosurface_properties[] = {
+    {"function", TYPE_ACTION, ACTION_SHAPE_FUNCTION, .is_first = true,
+     .doc = "`{ … }` of x, y and z: at the threshold on the surface, and below it inside"},
+    {"contained_by", TYPE_BLOCK, ACTION_CONTAINED_BY, .doc = "`{ sphere { … } }` or `{ box { … } }`: nothing lies outside"},
+    {"threshold", TYPE_NUMBER, AT(IsosurfaceDesc, threshold), .doc = "what the function is on the surface"},
+    {"accuracy", TYPE_NUMBER, AT(IsosurfaceDesc, accuracy), .range = POSITIVE,
+     .doc = "no piece of a ray is halved that is shorter"},
+    {"max_gradient", TYPE_NUMBER, AT(IsosurfaceDesc, max_gradient), .range = POSITIVE,
+     .doc = "how much the function changes over a length of 1 at most"},
+    {"evaluate", TYPE_ACTION, ACTION_EVALUATE,
+     .doc = "three numbers; `max_gradient` is then the first times the square of the second"},
+    {"max_trace", TYPE_INTEGER, AT(IsosurfaceDesc, roots_most), .range = {RANGE_FAULT, false, 1.0, INFINITY},
+     .doc = "how many surfaces a ray meets, at most 10"},
+    {"all_intersections", TYPE_ACTION, ACTION_EVALUATE, .doc = "the same as `max_trace 10`"},
+    {"open", TYPE_FLAG, AT(IsosurfaceDesc, is_open), .doc = "nothing is seen where the container cuts the inside"},
+};
+
+static const SchemaProperty contained_by_properties[] = {
+    {"sphere", TYPE_BLOCK, ACTION_CONTAINER, .doc = "`{ centre, radius }`"},
+    {"box", TYPE_BLOCK, ACTION_CONTAINER, .doc = "`{ corner, opposite corner }`"},
+};
+
+static const SchemaProperty container_ball_arguments[] = {
+    {"centre", TYPE_VECTOR, AT(ContainerDesc, low), .doc = "its middle"},
+    {"radius", TYPE_NUMBER, AT(ContainerDesc, radius), .range = POSITIVE, .doc = "its radius"},
+};
+
+static const SchemaProperty container_box_arguments[] = {
+    {"corner", TYPE_VECTOR, AT(ContainerDesc, low), .doc = "one corner"},
+    {"opposite corner", TYPE_VECTOR, AT(ContainerDesc, high), .doc = "the other"},
+};
+
+static const ContainerDesc container_defaults = {.low = {-1.0, -1.0, -1.0}, .high = {1.0, 1.0, 1.0}, .radius = 1.0};
+static const IsosurfaceDesc isosurface_defaults = {.part = OBJECT_PART,
+                                                   .container = {.low = {-1.0, -1.0, -1.0}, .high = {1.0, 1.0, 1.0}},
+                                                   .accuracy = 0.001,
+                                                   .max_gradient = 1.1,
+                                                   .roots_most = 1};
+
 // ---- blob
 
 static const SchemaProperty blob_properties[] = {
@@ -806,6 +847,31 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                        .arguments = LIST(blob_rod_arguments),
                        .groups = {LIST(transforms)},
                        .doc = "A component of a blob."},
+    [KIND_ISOSURFACE] = {.word = "isosurface",
+                         .what = "an isosurface",
+                         .size = sizeof(IsosurfaceDesc),
+                         .defaults = &isosurface_defaults,
+                         .is_object = true,
+                         .is_declarable = true,
+                         .groups = {LIST(isosurface_properties), OBJECT_GROUPS},
+                         .doc = "Where a function is at a threshold, within a sphere or box; inside where it is below."},
+    [KIND_CONTAINED_BY] = {.word = "contained_by",
+                           .size = sizeof(ContainerDesc),
+                           .defaults = &container_defaults,
+                           .groups = {LIST(contained_by_properties)},
+                           .doc = "What an isosurface lies in."},
+    [KIND_CONTAINER_BALL] = {.word = "sphere",
+                             .inside = "contained_by",
+                             .size = sizeof(ContainerDesc),
+                             .defaults = &container_defaults,
+                             .arguments = LIST(container_ball_arguments),
+                             .doc = "A ball that contains an isosurface."},
+    [KIND_CONTAINER_BOX] = {.word = "box",
+                            .inside = "contained_by",
+                            .size = sizeof(ContainerDesc),
+                            .defaults = &container_defaults,
+                            .arguments = LIST(container_box_arguments),
+                            .doc = "A box that contains an isosurface."},
     [KIND_PRISM] = {.word = "prism",
                     .what = "a prism",
                     .size = sizeof(PrismDesc),
@@ -1077,7 +1143,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 static const SchemaUnsupported unsupported[] = {
     {"bicubic_patch", true, NULL, NULL},
     {"height_field", true, NULL, NULL},
-    {"isosurface", true, NULL, NULL},
     {"julia_fractal", true, NULL, NULL},
     {"lathe", true, NULL, NULL},
     {"light_group", true, "use a `union`", "its lights and shapes"},

@@ -11,6 +11,7 @@
 #include "trace/box.h"
 #include "trace/cone.h"
 #include "trace/flat.h"
+#include "trace/isosurface.h"
 #include "trace/plane.h"
 #include "trace/polynomial.h"
 #include "trace/prism.h"
@@ -373,6 +374,12 @@ const SolidClass solid_classes[PART_KINDS] = {
                       .point = flat_point,
                       .axes = box_axes,
                       .across = {3}},
+    [PART_ISOSURFACE] = {.intervals = isosurface_intervals,
+                         .normal = isosurface_normal,
+                         .gradient = isosurface_normal,
+                         .point = isosurface_point,
+                         .axes = box_axes,
+                         .unseen = 1 << ISOSURFACE_UNSEEN},
     [PART_MESH] = {.axes = box_axes}, // all else is in trace/mesh.h
     [PART_MESH_SOLID] = {.axes = box_axes},
 };

@@ -8,6 +8,7 @@
 #ifndef TRACE_SOLID_H
 #define TRACE_SOLID_H
 
+#include "math/noise.h"
 #include "math/ray.h"
 #include "math/transform.h"
 #include "scene/polynomial.h"
@@ -15,6 +16,7 @@
 #include "scene/scene.h"
 #include "trace/ray_interval.h"
 #include "trace/sphere.h"
+#include "trace/trace.h"
 
 typedef enum SolidTrait {
     SOLID_FLAT = 1,   // it has no inside
@@ -25,6 +27,13 @@ typedef enum SolidTrait {
 } SolidTrait;
 
 typedef struct MeshTable MeshTable;
+
+// What isosurfaces of one geometry have in common.
+typedef struct IsosurfaceWorld {
+    double scale;           // of prepared lengths in those of the scene, a power of two
+    const Noise *noise;     // the scene's; NULL where no function asks for it
+    const Abandon *abandon; // NULL: no ray is left untraced; not owned
+} IsosurfaceWorld;
 
 // What a mesh has in the place of numbers.
 typedef struct SolidMesh {
@@ -55,6 +64,7 @@ typedef struct Solid {
     double extent, spread; // solid_measure; extent: 0 where no column has more than one entry
     Vec3 columns;          // lengths of the columns of to_object
     uint8_t entries[3];    // of each column: a bit for each that is not 0
+    uint8_t unseen;        // a bit for each side that bounds the inside and is not seen
     uint32_t interval_most; // of a line, at most; 0: it is flat
     Linear to_object, to_world; // what tests need stands before what surfaces need
     union {
@@ -62,6 +72,7 @@ typedef struct Solid {
         struct { // as of a part; the list is the scene's
             Vec3 fixed[2];
             Numbers list;
+            const IsosurfaceWorld *isosurfaces; // of one
         };
         SolidMesh mesh;
     };
@@ -95,7 +106,7 @@ typedef struct SolidClass {
     // The axes of an ellipsoid around it, about *middle.
     void (*axes)(const Solid *solid, Vec3 axes[3], Vec3 *middle);
     bool turns;                // its normals may point in as well as out: which way a ray crosses it tells
-    uint8_t films;             // as of a solid
+    uint8_t films, unseen;     // as of a solid
     int8_t across[SIDES_MOST]; // of each side: 1 + the axis that it lies across, 0 if it is not flat or across none
 } SolidClass;
 
@@ -105,6 +116,11 @@ extern const SolidClass solid_classes[PART_KINDS];
 static inline bool solid_is_film(const Solid *solid, uint8_t side)
 {
     return solid->films >> (side & 31) & 1;
+}
+
+static inline bool solid_side_is_unseen(const Solid *solid, uint8_t side)
+{
+    return solid->unseen >> (side & 31) & 1;
 }
 
 static inline bool solid_is_convex(const Solid *solid)

@@ -197,7 +197,8 @@ bool warps_place(Eval *ev, Scene *scene, const WarpDesc *last, Span span, uint32
 
 // formula.c
 // Steps of a function of three numbers; what it is made of must be such as the renderer has.
-bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, uint32_t *first) RT_MUST_CHECK;
+bool formula_place(Eval *ev, Scene *scene, const Function *function, SchemaKind kind, Span span,
+                   uint32_t *first) RT_MUST_CHECK;
 
 // material.c
 // A scene's record of a pigment that is moved by `outer`.
@@ -362,6 +363,17 @@ bool blob_part_action(Block *block, const SchemaProperty *property, const AstNod
 bool blob_close(Block *block) RT_MUST_CHECK;
 const char *blob_form(const void *object, Part *part);
 bool blob_holds(const void *object, Vec3 point, bool is_turned);
+
+// isosurface.c
+bool shape_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool contained_by_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool container_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool isosurface_evaluate_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool isosurface_close(Block *block) RT_MUST_CHECK;
+const char *isosurface_form(const void *object, Part *part); // these as in ShapeClass
+bool isosurface_has(const void *object, Vec3 point, bool is_turned);
+bool isosurface_box(const void *object, OwnBox *own);
+
 // outline.c: prisms and polygons
 bool prism_body(Block *block) RT_MUST_CHECK;
 bool polygon_body(Block *block) RT_MUST_CHECK;

@@ -21,6 +21,7 @@ typedef ARRAY(FormulaStep) Steps;
 typedef struct Maker {
     Eval *ev;
     Scene *scene;
+    SchemaKind kind; // of the block that the function stands in
     Span span;
     ARRAY(Made) made;
 } Maker;
@@ -37,7 +38,7 @@ static bool make(Maker *maker, const Function *function, Made *made);
 
 static bool unsupported(Maker *maker, const char *what)
 {
-    block_unsupported(maker->ev, what, maker->span, KIND_PATTERN);
+    block_unsupported(maker->ev, what, maker->span, maker->kind);
     maker->ev->faulty = true;
     return false;
 }
@@ -147,6 +148,9 @@ static bool emit_painted(Making *body, const FunctionNode *node)
     const Function *function = node->function;
     Maker *maker = body->maker;
     Pigment pigment;
+    if (maker->kind != KIND_PATTERN) {
+        return unsupported(maker, function->kind == FUNCTION_PATTERN ? "pattern" : "pigment");
+    }
     if (!painted_place(maker->ev, maker->scene, function->painted, maker->span, &pigment)) {
         return false;
     }
@@ -271,12 +275,12 @@ static bool make_body(Maker *maker, const Function *function, Made *made)
     made->steps = body.cost < FORMULA_STEPS_MOST ? body.cost : FORMULA_STEPS_MOST + 1;
     made->room = body.room;
     if (fine && made->steps > FORMULA_STEPS_MOST) {
-        return eval_fault(maker->ev, DIAG_E0606, maker->span, "a function of a pattern that takes more than %d steps",
+        return eval_fault(maker->ev, DIAG_E0606, maker->span, "a function that takes more than %d steps",
                           (int)FORMULA_STEPS_MOST);
     }
     if (fine && made->room > FORMULA_STACK_MOST) {
         return eval_fault(maker->ev, DIAG_E0606, maker->span,
-                          "a function of a pattern that holds more than %d numbers at a time", (int)FORMULA_STACK_MOST);
+                          "a function that holds more than %d numbers at a time", (int)FORMULA_STACK_MOST);
     }
     return fine;
 }
@@ -304,9 +308,9 @@ static bool make_outer(Maker *maker, const Function *function, Made *made)
     return function->kind == FUNCTION_NUMBER ? make(maker, function, made) : make_body(maker, &outer, made);
 }
 
-bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, uint32_t *first)
+bool formula_place(Eval *ev, Scene *scene, const Function *function, SchemaKind kind, Span span, uint32_t *first)
 {
-    Maker maker = {.ev = ev, .scene = scene, .span = span};
+    Maker maker = {.ev = ev, .scene = scene, .kind = kind, .span = span};
     Made made = {.first = RECORD_NONE};
     unsigned height = function->body ? function->body->height : 1;
     if (!eval_deepen(ev, height, span)) {
