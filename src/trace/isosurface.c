@@ -105,8 +105,8 @@ static double start(Walk *walk)
 static void walk_roots(Walk *walk)
 {
     double at = start(walk), to = walk->container.leave, t;
-    bool has_end = at < to && walk->is_within; // whether its end is seen
-    for (unsigned i = 0; i < 2 * ISOSURFACE_ROOTS_MOST && at < to && !walk->is_over; i++) {
+    bool is_long = to - at >= walk->line.step, has_end = is_long && walk->is_within; // whether its end is seen
+    for (unsigned i = 0; i < 2 * ISOSURFACE_ROOTS_MOST && is_long && at < to && !walk->is_over; i++) {
         if (!isosurface_find(&walk->line, at, to, walk->is_inside, &t)) {
             break;
         }
@@ -139,6 +139,9 @@ unsigned isosurface_intervals(const Solid *solid, const Ray *object, SideLeft le
     walk.line.is_over = world->abandon ? is_abandoned : NULL;
     walk.line.client = world->abandon;
     walk.is_within = !(walk.container.enter > 0.0);
+    if (!walk.is_within && walk.container.leave - walk.container.enter < walk.line.step) {
+        return 0; // as in POV-Ray
+    }
     walk.is_alone = solid->node == NODE_NONE;
     walk_roots(&walk);
     return walk.count;

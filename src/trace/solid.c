@@ -379,6 +379,7 @@ const SolidClass solid_classes[PART_KINDS] = {
                          .gradient = isosurface_normal,
                          .point = isosurface_point,
                          .axes = box_axes,
+                         .turns = true,
                          .unseen = 1 << ISOSURFACE_UNSEEN},
     [PART_MESH] = {.axes = box_axes}, // all else is in trace/mesh.h
     [PART_MESH_SOLID] = {.axes = box_axes},
