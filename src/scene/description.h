@@ -238,7 +238,8 @@ typedef struct IsosurfaceDesc {
     bool is_open;
     const struct Function *function;
     Numbers list; // all that a part wants of it (scene/isosurface.h)
-    const Noise *noise; // of its function, if that asks for it
+    const FormulaHost *host; // of its function, if that asks for noise or patterns; else NULL
+    struct Painted *const *painted; // what its steps ask by number, as a scene's have it by the place of a pattern
 } IsosurfaceDesc;
 
 // A component while it is read.

@@ -23,8 +23,8 @@ void dump_pattern(const Scene *scene, const PatternedPigment *record, TextBuffer
 // What a pattern's formula calls, before it; the word with its formula; its warps, and the transforms between them.
 void dump_formula_parts(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out);
-// As PrimitiveClass.dump.
-void dump_isosurface(const Part *part, TextBuffer *out);
+// All of an isosurface but its head.
+void dump_isosurface(const Scene *scene, const Part *part, TextBuffer *out);
 void dump_warps(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 
 // Declarations of all interiors (I1, …), patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its

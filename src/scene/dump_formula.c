@@ -35,14 +35,14 @@ static const char *const slot_words[] = {"x", "y", "z"};
 
 // Where formulas are written from.
 typedef struct Formulas {
-    const Scene *scene; // NULL: those of an isosurface, which ask no patterns
-    const FormulaStep *steps;
-    char letter; // that the names of functions begin with
+    const Scene *scene;
+    const FormulaStep *steps; // the scene's, or an isosurface's own
+    bool is_own;
 } Formulas;
 
 static Formulas formulas_of(const Scene *scene)
 {
-    return (Formulas){scene, scene->formula_steps.items, 'G'};
+    return (Formulas){scene, scene->formula_steps.items, false};
 }
 
 typedef struct Writer {
@@ -58,7 +58,7 @@ static unsigned takes(const FormulaStep *step)
     return op <= FORMULA_SLOT                                    ? 0
            : op <= FORMULA_MAX                                   ? 2
            : op <= FORMULA_RADIANS                               ? 1
-           : op == FORMULA_CALL                                  ? (unsigned)step->number
+           : op == FORMULA_CALL || op == FORMULA_GIVEN           ? (unsigned)step->number
            : op == FORMULA_SELECT4 || op == FORMULA_NOISE_CHOSEN ? 4
                                                                  : 3;
 }
@@ -117,7 +117,7 @@ static void write_value(const Writer *writer, size_t last)
         }
         return;
     case FORMULA_CALL:
-        text_printf(out, "%c%lu", writer->formulas->letter, (unsigned long)step->which);
+        text_printf(out, "%s%lu", writer->formulas->is_own ? "J" : "G", (unsigned long)step->which);
         break;
     case FORMULA_PATTERN:
         text_printf(out, "Q%lu", (unsigned long)step->which);
@@ -152,27 +152,32 @@ static void write_body(const Formulas *formulas, uint32_t first, bool is_pattern
     free(writer.steps);
 }
 
-// Noise is all that a function does that has it: one of those that POV-Ray has built in.
+// Noise, or a given surface, is all that a function does that has it: one of those that POV-Ray has built in.
 static bool write_given(const Formulas *formulas, uint32_t first, TextBuffer *out)
 {
     const FormulaStep *step = &formulas->steps[first];
     while (step->next != RECORD_NONE) {
         step = &formulas->steps[step->next];
     }
-    bool is_given = step->op == FORMULA_NOISE || step->op == FORMULA_NOISE_CHOSEN;
-    text_append(out, !is_given ? "" : step->op == FORMULA_NOISE ? "{ internal(76) }" : "{ internal(78) }");
-    return is_given;
+    bool is_noise = step->op == FORMULA_NOISE || step->op == FORMULA_NOISE_CHOSEN;
+    if (step->op == FORMULA_GIVEN || is_noise) {
+        text_printf(out, "{ internal(%lu) }", step->op == FORMULA_GIVEN   ? (unsigned long)step->which
+                                              : step->op == FORMULA_NOISE ? 76ul
+                                                                          : 78ul);
+        return true;
+    }
+    return false;
 }
 
 // A function that is called; those of the scene's patterns are declared once, by their number.
 static void declare_call(const Formulas *formulas, const FormulaStep *step, TextBuffer *out)
 {
-    const char *end = formulas->scene ? " #end\n" : "\n";
+    const char *end = formulas->is_own ? "\n" : " #end\n", *letter = formulas->is_own ? "J" : "G";
     unsigned long number = (unsigned long)step->which;
-    if (formulas->scene) {
-        text_printf(out, "#ifndef (%c%lu) ", formulas->letter, number);
+    if (!formulas->is_own) {
+        text_printf(out, "#ifndef (%s%lu) ", letter, number);
     }
-    text_printf(out, "#declare %c%lu = function ", formulas->letter, number);
+    text_printf(out, "#declare %s%lu = function ", letter, number);
     if (write_given(formulas, step->which, out)) {
         text_append(out, end);
         return;
@@ -241,10 +246,10 @@ void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out)
 
 // ---- isosurfaces
 
-void dump_isosurface(const Part *part, TextBuffer *out)
+void dump_isosurface(const Scene *scene, const Part *part, TextBuffer *out)
 {
     const Isosurface *surface = isosurface_of(part->list.items);
-    Formulas formulas = {NULL, isosurface_steps(part->list.items), 'J'};
+    Formulas formulas = {scene, isosurface_steps(part->list.items), true};
     text_append(out, "\n");
     declare_parts(&formulas, (uint32_t)surface->first, out);
     write_function(&formulas, (uint32_t)surface->first, out);

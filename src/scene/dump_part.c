@@ -13,6 +13,9 @@ static void dump_form(const Scene *scene, const Part *part, TextBuffer *out)
     }
     const PrimitiveClass *primitive = primitive_class(part->kind);
     text_append(out, primitive->head);
+    if (part->kind == PART_ISOSURFACE) {
+        dump_isosurface(scene, part, out);
+    }
     if (primitive->dump) {
         primitive->dump(part, out);
     }

@@ -61,6 +61,14 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
         dump_number(out, " control1 ", pattern->vector.y);
         text_append(out, "\n");
     }
+    if (pattern->type == PATTERN_MANDEL || pattern->type == PATTERN_JULIA) {
+        text_printf(out, pattern->magnet ? "" : "  exponent %d\n", (int)pattern->power);
+        text_printf(out, "  exterior %d", (int)pattern->exterior);
+        dump_number(out, ", ", pattern->exterior_factor);
+        text_printf(out, "\n  interior %d", (int)pattern->interior);
+        dump_number(out, ", ", pattern->interior_factor);
+        text_append(out, "\n");
+    }
     dump_number(out, "  frequency ", pattern->frequency);
     dump_number(out, " phase ", pattern->phase);
     text_printf(out, " %s", pattern_wave_word((WaveType)pattern->wave));
@@ -77,6 +85,9 @@ static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBu
         return;
     }
     const PatternInfo *info = pattern_info((PatternType)pattern->type);
+    if (pattern->magnet) {
+        text_printf(out, "  magnet %d", (int)pattern->magnet);
+    }
     text_printf(out, "  %s", info->word);
     if (info->has_direction) {
         dump_vector(out, " ", pattern->vector);

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "math/given_surface.h"
 #include "scene/scene.h"
 
 // Where a formula is done: its arguments are `slots`.
@@ -121,6 +122,18 @@ static double noise_of(const FormulaSource *source, const double *a, NoiseGenera
     return noise_value(source->noise, generator, vec3(a[0], a[1], a[2]));
 }
 
+double formula_component(const FormulaStep *step, const double v[5])
+{
+    switch ((unsigned)step->number) {
+    case FORMULA_GRAY:
+        return rgb_luminance(rgb(v[0], v[1], v[2]));
+    case FORMULA_HEIGHT:
+        return (v[0] + v[1] / 255.0) * 0.996093; // the manual's, 2.2.2.5.4 "Pigment Functions"
+    default:
+        return v[(unsigned)step->number];
+    }
+}
+
 // A step of more numbers than two, which stand before `top`; they become one, and so many are returned.
 static unsigned of_more(const Place *place, const FormulaStep *step, double *top)
 {
@@ -137,6 +150,11 @@ static unsigned of_more(const Place *place, const FormulaStep *step, double *top
     case FORMULA_NOISE_CHOSEN:
         top[-4] = noise_of(place->source, top - 4, noise_generator((int)number_to_int(top[-1]) & 3));
         return 4;
+    case FORMULA_GIVEN: {
+        unsigned count = (unsigned)step->number;
+        top[-(int)count] = given_surface(step->which, place->source->noise, top - count);
+        return count;
+    }
     case FORMULA_CALL: {
         unsigned count = (unsigned)step->number;
         formula_run(place->source, step->which, top - count, top);
@@ -144,7 +162,7 @@ static unsigned of_more(const Place *place, const FormulaStep *step, double *top
         return count;
     }
     default:
-        top[-3] = place->source->painted(place->source->client, step, top - 3);
+        top[-3] = place->source->painted ? place->source->painted(place->source->client, step, top - 3) : (double)NAN;
         return 3;
     }
 }

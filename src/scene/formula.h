@@ -64,6 +64,7 @@ typedef enum FormulaOp {
     FORMULA_NOISE_CHOSEN, // of four, the last one being the generator
     FORMULA_PATTERN,      // the value of Scene.patterns[which] at three numbers
     FORMULA_PIGMENT,      // its colour's component `number`, see FormulaComponent
+    FORMULA_GIVEN,        // the surface of functions.inc that `which` says, of `number` arguments
     FORMULA_CALL,         // the formula that begins at `which`, of `number` arguments
     FORMULA_OPS
 } FormulaOp;
@@ -82,15 +83,27 @@ typedef struct FormulaStep {
     uint32_t unused;
 } FormulaStep;
 
+// What FORMULA_PATTERN or FORMULA_PIGMENT gives at a point.
+typedef double (*FormulaPainter)(const void *client, const FormulaStep *step, const double *point);
+
 // What formulas are done with.
 typedef struct FormulaSource {
     const FormulaStep *steps;
     const Noise *noise;       // NULL where no step asks for it
     NoiseGenerator generator; // of FORMULA_NOISE
-    // What FORMULA_PATTERN and FORMULA_PIGMENT give at a point; NULL where no step is one of them.
-    double (*painted)(const void *client, const FormulaStep *step, const double *point);
+    FormulaPainter painted;   // NULL: what is painted is no number
     const void *client;
 } FormulaSource;
+
+// What formulas of shapes find their noise and their patterns by.
+typedef struct FormulaHost {
+    const Noise *noise;     // NULL where no step asks for it
+    FormulaPainter painted; // set by whoever can tell; NULL before
+    const void *client;
+} FormulaHost;
+
+// What FORMULA_PIGMENT makes of a colour: red, green, blue, filter and transmit.
+double formula_component(const FormulaStep *step, const double v[5]);
 
 // What the formula that begins with a step gives is put at `top`, where there is room for FORMULA_STACK_MOST numbers.
 void formula_run(const FormulaSource *source, uint32_t first, const double *slots, double *top);

@@ -31,16 +31,18 @@ static double value_at(const double *list, const FormulaSource *source, Vec3 p)
     return numbers[3] - surface->threshold;
 }
 
-static FormulaSource source_of(const double *list, const Noise *noise)
+static FormulaSource source_of(const double *list, const FormulaHost *host)
 {
     return (FormulaSource){.steps = isosurface_steps(list),
-                           .noise = noise,
-                           .generator = (NoiseGenerator)isosurface_of(list)->generator};
+                           .noise = host ? host->noise : NULL,
+                           .generator = (NoiseGenerator)isosurface_of(list)->generator,
+                           .painted = host ? host->painted : NULL,
+                           .client = host ? host->client : NULL};
 }
 
-double isosurface_value(const double *list, const Noise *noise, Vec3 p)
+double isosurface_value(const double *list, const FormulaHost *host, Vec3 p)
 {
-    FormulaSource source = source_of(list, noise);
+    FormulaSource source = source_of(list, host);
     return value_at(list, &source, p);
 }
 
@@ -58,16 +60,16 @@ static bool container_holds(const Isosurface *surface, Vec3 p)
     return holds;
 }
 
-bool isosurface_holds(const double *list, const Noise *noise, Vec3 p)
+bool isosurface_holds(const double *list, const FormulaHost *host, Vec3 p)
 {
-    return container_holds(isosurface_of(list), p) && isosurface_value(list, noise, p) <= 0.0;
+    return container_holds(isosurface_of(list), p) && isosurface_value(list, host, p) <= 0.0;
 }
 
-IsosurfaceLine isosurface_line(const double *list, const Noise *noise, Ray ray, double length)
+IsosurfaceLine isosurface_line(const double *list, const FormulaHost *host, Ray ray, double length)
 {
     const Isosurface *surface = isosurface_of(list);
     return (IsosurfaceLine){.list = list,
-                            .source = source_of(list, noise),
+                            .source = source_of(list, host),
                             .ray = ray,
                             .step = surface->accuracy / length,
                             .rise = surface->max_gradient * vec3_length(ray.direction)};

@@ -17,6 +17,7 @@ enum {
     ISOSURFACE_OPEN = 1,  // its container has no surface
     ISOSURFACE_ROUND = 2, // its container is a ball
     ISOSURFACE_NOISY = 4, // some step asks for noise
+    ISOSURFACE_PAINTED = 8, // or a pattern or pigment
 };
 
 // Surfaces on a line that are seen at most; as many again bound what is cut.
@@ -56,10 +57,10 @@ static inline const FormulaStep *isosurface_steps(const double *list)
 void isosurface_bounds(const Isosurface *surface, Vec3 *low, Vec3 *high);
 
 // The function less the threshold.
-double isosurface_value(const double *list, const Noise *noise, Vec3 p);
+double isosurface_value(const double *list, const FormulaHost *host, Vec3 p);
 
 // Whether a point is in its container, and the function below the threshold there.
-bool isosurface_holds(const double *list, const Noise *noise, Vec3 p);
+bool isosurface_holds(const double *list, const FormulaHost *host, Vec3 p);
 
 // What a line is asked with. A step of `accuracy` is `step` of its parameter, and one of 1 in it is `rise` of the
 // function at most.
@@ -74,7 +75,7 @@ typedef struct IsosurfaceLine {
 } IsosurfaceLine;
 
 // A line in the surface's own space; `length` is what 1 of its parameter is in the space that `accuracy` is told in.
-IsosurfaceLine isosurface_line(const double *list, const Noise *noise, Ray ray, double length);
+IsosurfaceLine isosurface_line(const double *list, const FormulaHost *host, Ray ray, double length);
 
 double isosurface_along(const IsosurfaceLine *line, double t);
 

@@ -337,7 +337,7 @@ static uint32_t blob_part_intervals(const Part *part)
 
 static bool surface_holds(const Part *part, Vec3 p)
 {
-    return isosurface_holds(part->list.items, part->noise, p);
+    return isosurface_holds(part->list.items, part->host, p);
 }
 
 // Alone it is asked for the first surface only.
@@ -560,7 +560,7 @@ static const PrimitiveClass classes[] = {
                       .dump = outline_dump,
                       .measure = box_measure},
     [PART_ISOSURFACE] = {.word = "isosurface",
-                         .head = "isosurface { ",
+                         .head = "isosurface {",
                          .family = FAMILY_ISOSURFACE,
                          .surface = PART_ISOSURFACE,
                          .key_count = 3,
@@ -570,7 +570,6 @@ static const PrimitiveClass classes[] = {
                          .is_sized = true,
                          .support = box_support,
                          .holds = surface_holds,
-                         .dump = dump_isosurface,
                          .measure = box_measure},
     [PART_MESH] = {.word = "mesh",
                    .head = "",

@@ -12,7 +12,7 @@
 #include "scene/primitive.h"
 
 _Static_assert(sizeof(Material) == 5 * sizeof(float) + sizeof(FinishIndex), "no padding in a material");
-_Static_assert(sizeof(Pattern) == 8 * sizeof(uint32_t) + 18 * sizeof(double), "no padding in a pattern");
+_Static_assert(sizeof(Pattern) == 12 * sizeof(uint32_t) + 20 * sizeof(double), "no padding in a pattern");
 _Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(PatternedPigment) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Texture) == sizeof(Pigment) + sizeof(Transform) + sizeof(Pattern) + 4 * sizeof(uint32_t),
@@ -85,7 +85,10 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->planes);
     ARRAY_FREE(&scene->parts);
     numbers_fini(&scene->numbers);
-    free(scene->noise);
+    if (scene->formula_host) {
+        free((void *)scene->formula_host->noise);
+        free(scene->formula_host);
+    }
     for (size_t i = 0; i < scene->meshes.count; i++) {
         mesh_free(scene->meshes.items[i]);
     }
@@ -420,25 +423,24 @@ bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIn
     return true;
 }
 
-// Noise that a part asks for becomes the scene's.
-static bool own_noise(Scene *scene)
+const FormulaHost *scene_formula_host(Scene *scene)
 {
-    if (!scene->noise) {
-        scene->noise = malloc(sizeof *scene->noise);
-        if (scene->noise) {
-            noise_init(scene->noise, NULL);
-        }
+    Noise *noise = scene->formula_host ? NULL : malloc(sizeof *noise);
+    if (noise) {
+        scene->formula_host = calloc(1, sizeof *scene->formula_host);
     }
-    return scene->noise;
+    if (!noise || !scene->formula_host) {
+        free(noise);
+        return scene->formula_host;
+    }
+    noise_init(noise, NULL);
+    scene->formula_host->noise = noise;
+    return scene->formula_host;
 }
 
 // Its list of numbers becomes the scene's.
 static bool add_part(Scene *scene, const Part *part)
 {
-    bool is_noisy = part->kind == PART_ISOSURFACE && part->noise;
-    if (is_noisy && !own_noise(scene)) {
-        return false;
-    }
     if (!ARRAY_PUSH(&scene->parts, *part)) {
         return false;
     }
@@ -446,9 +448,6 @@ static bool add_part(Scene *scene, const Part *part)
         !numbers_keep(&scene->numbers, &scene->parts.items[scene->parts.count - 1].list)) {
         scene->parts.count--;
         return false;
-    }
-    if (is_noisy) {
-        scene->parts.items[scene->parts.count - 1].noise = scene->noise;
     }
     return true;
 }

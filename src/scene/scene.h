@@ -325,7 +325,7 @@ typedef struct Part {
         struct { // of a kind that has a list of numbers (scene/primitive.h): its bounds or more of them, and the list
             Vec3 fixed[2];
             Numbers list; // the scene's, once the part is added: equal lists are at one place
-            const Noise *noise; // of an isosurface that asks for it; the scene's, once the part is added
+            const FormulaHost *host; // of an isosurface that asks for noise or patterns; else NULL
         };
         PartMesh mesh; // of a mesh
     };
@@ -477,7 +477,7 @@ typedef struct Scene {
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
     NumberPool numbers; // the lists of parts
-    Noise *noise;       // of isosurfaces that ask for it, its own; NULL: none does
+    FormulaHost *formula_host; // of isosurfaces that want one, its own; NULL: none does
     ARRAY(Mesh *) meshes; // owned; parts may share one
     size_t mesh_bytes;    // of all of them
     uint32_t plain_mesh_count; // of them, without textures of their own
@@ -600,6 +600,8 @@ bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;
 bool scene_begin_composite(Scene *scene, uint8_t hidden, uint64_t source) RT_MUST_CHECK;
 bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, uint64_t source,
                     uint32_t *index) RT_MUST_CHECK;
+// What formulas of shapes ask; NULL when out of memory.
+const FormulaHost *scene_formula_host(Scene *scene) RT_MUST_CHECK;
 bool scene_add_leaf(Scene *scene, const Part *part) RT_MUST_CHECK;
 void scene_end_composite(Scene *scene);
 // Bytes of stack that a ray takes in the largest of them.

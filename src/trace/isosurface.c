@@ -46,7 +46,7 @@ static bool ball_interval(const Isosurface *surface, const Ray *ray, uint8_t lef
 // What of the line is in the container; a ray that leaves it through its own side is not in it any more.
 static bool container_interval(const Solid *solid, const Ray *ray, SideLeft left, RayInterval *interval)
 {
-    const Isosurface *surface = isosurface_of(solid->list.items);
+    const Isosurface *surface = isosurface_of(solid->isosurface.list);
     bool is_on = left.side >= ISOSURFACE_BALL && left.side != SIDE_NONE;
     if (is_on && !left.inward) {
         return false;
@@ -55,7 +55,7 @@ static bool container_interval(const Solid *solid, const Ray *ray, SideLeft left
         return ball_interval(surface, ray, left.side, interval);
     }
     uint8_t side = is_on ? (uint8_t)(left.side - ISOSURFACE_BOX) : SIDE_NONE;
-    if (!box_interval(solid->fixed[0], solid->fixed[1], ray->origin, ray->direction, side, interval)) {
+    if (!box_interval(solid->isosurface.low, solid->isosurface.high, ray->origin, ray->direction, side, interval)) {
         return false;
     }
     interval->enter_side = (uint8_t)(interval->enter_side + ISOSURFACE_BOX);
@@ -129,13 +129,13 @@ static bool is_abandoned(const void *client)
 
 unsigned isosurface_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
 {
-    Walk walk = {.surface = isosurface_of(solid->list.items), .open = INTERVAL_ALL, .intervals = intervals};
+    Walk walk = {.surface = isosurface_of(solid->isosurface.list), .open = INTERVAL_ALL, .intervals = intervals};
     if (!container_interval(solid, object, left, &walk.container) || !(walk.container.leave > 0.0)) {
         return 0;
     }
-    const IsosurfaceWorld *world = solid->isosurfaces;
+    const IsosurfaceWorld *world = solid->isosurface.world;
     double length = world->scale * vec3_length(linear_direction(&solid->to_world, object->direction));
-    walk.line = isosurface_line(solid->list.items, world->noise, *object, length);
+    walk.line = isosurface_line(solid->isosurface.list, solid->isosurface.host, *object, length);
     walk.line.is_over = world->abandon ? is_abandoned : NULL;
     walk.line.client = world->abandon;
     walk.is_within = !(walk.container.enter > 0.0);
@@ -152,12 +152,12 @@ unsigned isosurface_intervals(const Solid *solid, const Ray *object, SideLeft le
 // As POV-Ray has it: by what the function is `accuracy` further along each axis.
 static Vec3 difference(const Solid *solid, Vec3 p)
 {
-    const double *list = solid->list.items;
-    const Noise *noise = solid->isosurfaces->noise;
-    double step = isosurface_of(list)->accuracy, f = isosurface_value(list, noise, p);
-    Vec3 n = {isosurface_value(list, noise, vec3(p.x + step, p.y, p.z)) - f,
-              isosurface_value(list, noise, vec3(p.x, p.y + step, p.z)) - f,
-              isosurface_value(list, noise, vec3(p.x, p.y, p.z + step)) - f};
+    const double *list = solid->isosurface.list;
+    const FormulaHost *host = solid->isosurface.host;
+    double step = isosurface_of(list)->accuracy, f = isosurface_value(list, host, p);
+    Vec3 n = {isosurface_value(list, host, vec3(p.x + step, p.y, p.z)) - f,
+              isosurface_value(list, host, vec3(p.x, p.y + step, p.z)) - f,
+              isosurface_value(list, host, vec3(p.x, p.y, p.z + step)) - f};
     double size = vec3_max_abs(n);
     return size > 0.0 && size <= 0x1p1000 ? vec3_normalize(vec3_scale(ldexp(1.0, -ilogb(size)), n))
                                           : vec3(1.0, 0.0, 0.0);
@@ -165,7 +165,7 @@ static Vec3 difference(const Solid *solid, Vec3 p)
 
 Vec3 isosurface_normal(const Solid *solid, Vec3 point, uint8_t side)
 {
-    const Isosurface *surface = isosurface_of(solid->list.items);
+    const Isosurface *surface = isosurface_of(solid->isosurface.list);
     if (side == ISOSURFACE_SIDE) {
         return difference(solid, point);
     }
@@ -180,7 +180,7 @@ Vec3 isosurface_normal(const Solid *solid, Vec3 point, uint8_t side)
 
 Vec3 isosurface_point(const Solid *solid, Vec3 point, uint8_t side)
 {
-    const Isosurface *surface = isosurface_of(solid->list.items);
+    const Isosurface *surface = isosurface_of(solid->isosurface.list);
     if (side < ISOSURFACE_BALL) {
         return point;
     }
@@ -188,5 +188,5 @@ Vec3 isosurface_point(const Solid *solid, Vec3 point, uint8_t side)
         Vec3 middle = {surface->low[0], surface->low[1], surface->low[2]};
         return vec3_add_scaled(middle, surface->high[0], vec3_normalize(vec3_sub(point, middle)));
     }
-    return box_point(solid->fixed[0], solid->fixed[1], point, (uint8_t)(side - ISOSURFACE_BOX));
+    return box_point(solid->isosurface.low, solid->isosurface.high, point, (uint8_t)(side - ISOSURFACE_BOX));
 }

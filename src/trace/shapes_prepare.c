@@ -499,7 +499,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         .solid_count = (uint32_t)scene->parts.count,
         .node_count = (uint32_t)scene->nodes.count,
         .csg_count = (uint32_t)scene->composites.count,
-        .isosurfaces = {.scale = ldexp(1.0, exponent), .noise = scene->noise},
+        .isosurfaces = {.scale = ldexp(1.0, exponent)},
     };
     if (table->solid_count == 0) {
         return true;
@@ -511,7 +511,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         for (uint32_t i = 0; i < table->solid_count; i++) {
             table->solids[i] = solid_of(&scene->parts.items[i], exponent, down, up);
             if (table->solids[i].kind == PART_ISOSURFACE) {
-                table->solids[i].isosurfaces = &table->isosurfaces;
+                table->solids[i].isosurface.world = &table->isosurfaces;
             }
             work.solids[i] = part_bounds(&scene->parts.items[i], exponent, down);
         }

@@ -8,7 +8,6 @@
 #ifndef TRACE_SOLID_H
 #define TRACE_SOLID_H
 
-#include "math/noise.h"
 #include "math/ray.h"
 #include "math/transform.h"
 #include "scene/polynomial.h"
@@ -31,9 +30,16 @@ typedef struct MeshTable MeshTable;
 // What isosurfaces of one geometry have in common.
 typedef struct IsosurfaceWorld {
     double scale;           // of prepared lengths in those of the scene, a power of two
-    const Noise *noise;     // the scene's; NULL where no function asks for it
     const Abandon *abandon; // NULL: no ray is left untraced; not owned
 } IsosurfaceWorld;
+
+// What an isosurface has in the place of fixed[] and a list.
+typedef struct SolidIsosurface {
+    Vec3 low, high;
+    const double *list;
+    const IsosurfaceWorld *world;
+    const FormulaHost *host; // as of a part
+} SolidIsosurface;
 
 // What a mesh has in the place of numbers.
 typedef struct SolidMesh {
@@ -72,9 +78,9 @@ typedef struct Solid {
         struct { // as of a part; the list is the scene's
             Vec3 fixed[2];
             Numbers list;
-            const IsosurfaceWorld *isosurfaces; // of one
         };
         SolidMesh mesh;
+        SolidIsosurface isosurface;
     };
 } Solid;
 

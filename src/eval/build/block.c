@@ -45,6 +45,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_CONTAINED_BY] = contained_by_action,
     [ACTION_CONTAINER] = container_action,
     [ACTION_EVALUATE] = isosurface_evaluate_action,
+    [ACTION_FRACTAL] = pattern_fractal_action,
     [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,
     [ACTION_CONE] = light_cone_action,

@@ -8,7 +8,9 @@
 #include <string.h>
 
 #include "eval/build/blocks.h"
+#include "eval/build/painted.h"
 #include "eval/values/function.h"
+#include "math/given_surface.h"
 #include "scene/isosurface.h"
 
 // Lines that are looked along, and what a function's steps are at least divided by to have fewer.
@@ -120,7 +122,10 @@ static bool make_list(Block *block, const Scene *scene, uint32_t first, Numbers 
                      (desc->container.is_ball ? (unsigned)ISOSURFACE_ROUND : 0);
     for (size_t i = 0; i < steps; i++) {
         uint32_t op = scene->formula_steps.items[i].op;
-        flags |= op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN ? (unsigned)ISOSURFACE_NOISY : 0;
+        bool is_noisy = op == FORMULA_GIVEN && given_surface_asks_noise(scene->formula_steps.items[i].which);
+        flags |= op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN || is_noisy ? (unsigned)ISOSURFACE_NOISY
+                 : op == FORMULA_PATTERN || op == FORMULA_PIGMENT ? (unsigned)ISOSURFACE_PAINTED
+                                                                  : 0;
     }
     Isosurface head = {.first = first,
                        .step_count = (double)steps,
@@ -139,7 +144,7 @@ static bool make_list(Block *block, const Scene *scene, uint32_t first, Numbers 
 
 // ---- how much the function changes
 
-// Points that fill a square evenly: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
+// Points that fill a cube evenly: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
 static double spread(unsigned i, double step)
 {
     double at = 0.5 + i * step;
@@ -163,6 +168,21 @@ static Ray line_through(Vec3 low, Vec3 high, unsigned i, double *length)
     return (Ray){begin, vec3_scale(1.0 / *length, way)};
 }
 
+// A line between two points of a ball's surface.
+static Ray line_through_ball(Vec3 middle, double radius, unsigned i, double *length)
+{
+    const double steps[4] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087, 0.5385972572236101};
+    Vec3 ends[2];
+    for (unsigned k = 0; k < 2; k++) {
+        double z = 2.0 * spread(i, steps[2 * k]) - 1.0, angle = 2.0 * M_PI * spread(i, steps[2 * k + 1]);
+        double across = sqrt(fmax(1.0 - z * z, 0.0));
+        ends[k] = vec3_add_scaled(middle, radius, vec3(across * cos(angle), across * sin(angle), z));
+    }
+    Vec3 way = vec3_sub(ends[1], ends[0]);
+    *length = vec3_length(way);
+    return (Ray){ends[0], vec3_scale(1.0 / *length, way)};
+}
+
 static double steepest(const IsosurfaceDesc *desc)
 {
     const Isosurface *surface = isosurface_of(desc->list.items);
@@ -171,8 +191,10 @@ static double steepest(const IsosurfaceDesc *desc)
     Vec3 low, high;
     isosurface_bounds(surface, &low, &high);
     for (unsigned i = 0; i < lines; i++) {
-        Ray ray = line_through(low, high, i, &length);
-        IsosurfaceLine line = isosurface_line(desc->list.items, desc->noise, ray, 1.0);
+        Ray ray = isosurface_is(surface, ISOSURFACE_ROUND)
+                      ? line_through_ball(vec3_scale(0.5, vec3_add(low, high)), surface->high[0], i, &length)
+                      : line_through(low, high, i, &length);
+        IsosurfaceLine line = isosurface_line(desc->list.items, desc->host, ray, 1.0);
         line.step = fmax(line.step, length / 1024.0);
         bool up = isosurface_along(&line, 0.0) < 0.0;
         (void)isosurface_find(&line, 0.0, length, up, &t);
@@ -208,30 +230,98 @@ static bool check_pieces(Block *block)
                        desc->accuracy, across);
 }
 
-bool isosurface_close(Block *block)
+// ---- patterns and noise
+
+// What the evaluator asks patterns with.
+typedef struct Asker {
+    FormulaHost host;
+    Eval *ev;
+    Painted *const *painted;
+    Span span;
+} Asker;
+
+static double ask(const void *client, const FormulaStep *step, const double *point)
+{
+    const Asker *asker = client;
+    double v[5];
+    if (!painted_at(asker->ev, asker->painted[step->which], point, asker->span, v)) {
+        return (double)NAN;
+    }
+    return step->op == FORMULA_PATTERN ? v[0] : formula_component(step, v);
+}
+
+static bool set_host(Block *block, const PaintedList *painted)
+{
+    IsosurfaceDesc *desc = &block->record->isosurface;
+    Span span = block->node->span;
+    unsigned flags = (unsigned)isosurface_of(desc->list.items)->flags;
+    if (!(flags & (ISOSURFACE_NOISY | ISOSURFACE_PAINTED))) {
+        return true;
+    }
+    Asker *asker = arena_alloc(block->arena, sizeof *asker);
+    const Noise *noise = eval_noise(block->ev, span);
+    Painted **copy = arena_copy(block->arena, painted->items, painted->count * sizeof *copy);
+    if (!asker || !noise || (!copy && painted->count > 0)) {
+        return eval_no_memory(block->ev, span);
+    }
+    *asker = (Asker){{noise, painted->count > 0 ? ask : NULL, asker}, block->ev, copy, span};
+    desc->host = &asker->host;
+    desc->painted = copy;
+    return true;
+}
+
+bool isosurface_place(Eval *ev, const void *object, Part *part)
+{
+    const IsosurfaceDesc *desc = object;
+    Span span = desc->part.span;
+    if (!desc->host) {
+        return true;
+    }
+    part->host = scene_formula_host(ev->scene);
+    double *list = arena_copy(&ev->program, part->list.items, part->list.count * sizeof *list);
+    if (!part->host || !list) {
+        return eval_no_memory(ev, span);
+    }
+    FormulaStep *steps = (FormulaStep *)(void *)(list + ISOSURFACE_HEAD);
+    for (size_t i = 0; i < (size_t)isosurface_of(list)->step_count; i++) {
+        Pigment pigment;
+        if (steps[i].op == FORMULA_PATTERN || steps[i].op == FORMULA_PIGMENT) {
+            if (!painted_place(ev, ev->scene, desc->painted[steps[i].which], span, &pigment)) {
+                return false;
+            }
+            steps[i].which = pigment.pattern;
+        }
+    }
+    part->list.items = list;
+    return true;
+}
+
+static bool make(Block *block, PaintedList *painted)
 {
     IsosurfaceDesc *desc = &block->record->isosurface;
     Scene scene;
     uint32_t first;
+    scene_init(&scene);
+    bool is_made = formula_make(block->ev, &scene, desc->function, block->kind, block->node->span, &first, painted) &&
+                   make_list(block, &scene, first, &desc->list) && set_host(block, painted);
+    scene_fini(&scene);
+    return is_made;
+}
+
+bool isosurface_close(Block *block)
+{
+    PaintedList painted = {0};
     if (block->has_unsupported) {
         return true;
     }
-    if (!desc->function) {
+    if (!block->record->isosurface.function) {
         return block_fault(block, DIAG_E0253, block->node->span, "`isosurface` needs a function");
     }
-    scene_init(&scene);
-    bool is_made = formula_place(block->ev, &scene, desc->function, block->kind, block->node->span, &first) &&
-                   make_list(block, &scene, first, &desc->list);
-    scene_fini(&scene);
+    bool is_made = make(block, &painted);
+    ARRAY_FREE(&painted);
     if (!is_made) {
         block->has_unsupported = eval_leaves_out(block->ev);
         return block->has_unsupported;
-    }
-    if (isosurface_is(isosurface_of(desc->list.items), ISOSURFACE_NOISY)) {
-        desc->noise = eval_noise(block->ev, block->node->span);
-        if (!desc->noise) {
-            return false;
-        }
     }
     return check_pieces(block) && check_gradient(block);
 }
@@ -244,7 +334,7 @@ const char *isosurface_form(const void *object, Part *part)
     part->kind = PART_ISOSURFACE;
     isosurface_bounds(isosurface_of(desc->list.items), &part->fixed[0], &part->fixed[1]);
     part->list = desc->list;
-    part->noise = desc->noise;
+    part->host = desc->host;
     bool is_flat = part->fixed[0].x == part->fixed[1].x || part->fixed[0].y == part->fixed[1].y ||
                    part->fixed[0].z == part->fixed[1].z;
     return is_flat ? "an isosurface in a flat box is not drawn" : NULL;
@@ -253,7 +343,7 @@ const char *isosurface_form(const void *object, Part *part)
 bool isosurface_has(const void *object, Vec3 point, bool is_turned)
 {
     const IsosurfaceDesc *desc = object;
-    return isosurface_holds(desc->list.items, desc->noise, point) != is_turned;
+    return isosurface_holds(desc->list.items, desc->host, point) != is_turned;
 }
 
 bool isosurface_box(const void *object, OwnBox *own)

@@ -140,8 +140,7 @@ static bool place_source(const Builder *builder, const PatternPart *part, Patter
         return false;
     }
     if (pattern->type == PATTERN_FUNCTION) {
-        return formula_place(builder->ev, builder->scene, part->function, KIND_PATTERN, builder->span,
-                             &pattern->image);
+        return formula_place(builder->ev, builder->scene, part->function, builder->span, &pattern->image);
     }
     if (pattern->type != PATTERN_PIGMENT) {
         return true;

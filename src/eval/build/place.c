@@ -209,6 +209,9 @@ static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, cons
             !place_face_materials(ev, (const MeshDesc *)common, inner, &alone)) {
             return false;
         }
+        if (part->kind == PART_ISOSURFACE && !isosurface_place(ev, common, &alone)) {
+            return false;
+        }
         is_added = scene_add_part(scene, &alone);
     }
     return is_added || eval_no_memory(ev, span);
@@ -330,6 +333,9 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     if (ev->scene->parts.count - composite->first_part >= COMPOSITE_PARTS_MOST) {
         return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
                           COMPOSITE_PARTS_MOST);
+    }
+    if (part.kind == PART_ISOSURFACE && !isosurface_place(ev, object, &part)) {
+        return false;
     }
     if (!has_stack(ev->scene, composite, &part)) {
         return eval_fault(ev, DIAG_E0363, common->span,

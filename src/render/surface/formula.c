@@ -23,13 +23,20 @@ static double painted_of(const void *client, const FormulaStep *step, const doub
     Rgbft colour = texture_pigment(source->table, &(Pigment){.pattern = step->which}, p);
     const double v[5] = {(double)(float)colour.red, (double)(float)colour.green, (double)(float)colour.blue,
                          (double)(float)colour.filter, (double)(float)colour.transmit};
-    switch ((unsigned)step->number) {
-    case FORMULA_GRAY:
-        return rgb_luminance(rgb(v[0], v[1], v[2]));
-    case FORMULA_HEIGHT:
-        return (v[0] + v[1] / 255.0) * 0.996093; // the manual's, 2.2.2.5.4 "Pigment Functions"
-    default:
-        return v[(unsigned)step->number];
+    return formula_component(step, v);
+}
+
+void formula_paint(FormulaHost *host, const NoiseSource *source)
+{
+    host->painted = painted_of;
+    host->client = source;
+}
+
+void formula_unpaint(FormulaHost *host, const NoiseSource *source)
+{
+    if (host->client == source) {
+        host->painted = NULL;
+        host->client = NULL;
     }
 }
 

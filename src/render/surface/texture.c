@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+#include "math/given_surface.h"
 #include "math/extreme.h"
 #include "scene/corners.h"
 
@@ -64,7 +65,8 @@ static bool asks_for_noise(const Scene *scene)
     }
     for (size_t i = 0; !found && i < scene->formula_steps.count; i++) {
         uint32_t op = scene->formula_steps.items[i].op;
-        found = op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN;
+        found = op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN ||
+                (op == FORMULA_GIVEN && given_surface_asks_noise(scene->formula_steps.items[i].which));
     }
     for (size_t i = 0; !found && i < scene->fogs.count; i++) {
         found = scene->fogs.items[i].is_turbulent;
