@@ -13,7 +13,6 @@
 #include "render/render.h"
 #include "render/shade/inside.h"
 #include "render/shade/tile_light.h"
-#include "render/surface/formula.h"
 #include "scene/range.h"
 #include "trace/kept.h"
 
@@ -273,7 +272,6 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     SceneScale scale = scene_scale(scene, options->threads);
     int exponent = scale.exponent;
     p->abandon = calloc(1, sizeof *p->abandon);
-    p->scene = scene;
     p->is_kept = options->kept != NULL;
     p->geometry = options->kept ? geometry_kept_take(options->kept, scene, exponent, options)
                                 : geometry_new_with(scene, exponent, options);
@@ -283,9 +281,6 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
         !texture_table_init(&p->textures, scene, NULL, exponent, geometry_isa_name(p->geometry))) {
         prepared_free(p);
         return NULL;
-    }
-    if (scene->formula_host) {
-        formula_paint(scene->formula_host, &p->textures.source);
     }
     geometry_set_abandon(p->geometry, p->abandon);
     p->length = ldexp(1.0, exponent);
@@ -324,9 +319,6 @@ void prepared_free(Prepared *prepared)
     free(prepared->abandon);
     free(prepared->lights);
     free(prepared->finishes);
-    if (prepared->scene && prepared->scene->formula_host) {
-        formula_unpaint(prepared->scene->formula_host, &prepared->textures.source);
-    }
     texture_table_fini(&prepared->textures);
     free(prepared);
 }

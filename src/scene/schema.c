@@ -306,8 +306,8 @@ static const SchemaProperty poly_arguments[] = {
 
 static const SchemaProperty isosurface_properties[] = {
     {"function", TYPE_ACTION, ACTION_SHAPE_FUNCTION, .is_first = true,
-     .doc = "`{ … }` of x, y and z: at the threshold on the surface, and below it inside"},
-    {"contained_by", TYPE_BLOCK, ACTION_CONTAINED_BY, .doc = "`{ sphere { … } }` or `{ box { … } }`: nothing lies outside"},
+     .doc = "`{ … }` of x, y and z: at the threshold on the surface, below it inside"},
+    {"contained_by", TYPE_BLOCK, ACTION_CONTAINED_BY, .doc = "`{ sphere { … } }` or `{ box { … } }`"},
     {"threshold", TYPE_NUMBER, AT(IsosurfaceDesc, threshold), .doc = "what the function is on the surface"},
     {"accuracy", TYPE_NUMBER, AT(IsosurfaceDesc, accuracy), .range = POSITIVE,
      .doc = "no piece of a ray is halved that is shorter"},

@@ -10,8 +10,9 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "math/given_surface.h"
 #include "math/extreme.h"
+#include "math/given_surface.h"
+#include "render/surface/formula.h"
 #include "scene/corners.h"
 
 static Transform way_back(const Transform *to_world)
@@ -171,11 +172,17 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     for (size_t i = 0; i < scene->normals.count; i++) {
         table->normal_to_pattern[i] = way_back(&scene->normals.items[i].to_world);
     }
+    if (scene->formula_host) {
+        formula_paint(scene->formula_host, &table->source);
+    }
     return true;
 }
 
 void texture_table_fini(TextureTable *table)
 {
+    if (table->scene && table->scene->formula_host) {
+        formula_unpaint(table->scene->formula_host, &table->source);
+    }
     free(table->noise);
     free(table->waves);
     free(table->to_pattern);
