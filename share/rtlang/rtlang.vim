@@ -24,18 +24,19 @@ syn keyword rtlangFunction vturbulence
 syn keyword rtlangConstant array clock clock_on false function no now off on pi t true u v version x y yes z
 syn keyword rtlangColour alpha blue color colour filter gray green red rgb rgbf rgbft rgbt srgb srgbf srgbft
 syn keyword rtlangColour srgbt transmit
-syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo ambient ambient_light angle
-syn keyword rtlangWord aperture area_light assumed_gamma average background black_hole blob blur_samples
-syn keyword rtlangWord bounded_by box boxed bozo brick brick_size brilliance bump_size bumps camera caustics
-syn keyword rtlangWord cells charset checker circular clipped_by color_map colour_map component cone
-syn keyword rtlangWord confidence conserve_energy control0 control1 crackle crand cubic cubic_wave cylinder
-syn keyword rtlangWord cylindrical dents difference diffuse direction disc dist_exp distance emission exponent
-syn keyword rtlangWord exr fade_color fade_colour fade_distance fade_power falloff finish fisheye flip
-syn keyword rtlangWord focal_point fog fog_alt fog_offset fog_type form frequency fresnel gamma
-syn keyword rtlangWord global_settings gradient granite hdr hexagon hf_gray_16 hierarchy hollow image_map
-syn keyword rtlangWord inside_vector interior interpolate intersection inverse ior irid irid_wavelength jitter
-syn keyword rtlangWord jpeg julia lambda leopard light_source location look_at looks_like major_radius mandel
-syn keyword rtlangWord map_type marble material matrix max_intersections max_trace_level media_attenuation
+syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo all_intersections ambient
+syn keyword rtlangWord ambient_light angle aperture area_light assumed_gamma average background black_hole
+syn keyword rtlangWord blob blur_samples bounded_by box boxed bozo brick brick_size brilliance bump_size bumps
+syn keyword rtlangWord camera caustics cells charset checker circular clipped_by color_map colour_map
+syn keyword rtlangWord component cone confidence conserve_energy contained_by control0 control1 crackle crand
+syn keyword rtlangWord cubic cubic_wave cylinder cylindrical dents difference diffuse direction disc dist_exp
+syn keyword rtlangWord distance emission evaluate exponent exr exterior fade_color fade_colour fade_distance
+syn keyword rtlangWord fade_power falloff finish fisheye flip focal_point fog fog_alt fog_offset fog_type form
+syn keyword rtlangWord frequency fresnel gamma global_settings gradient granite hdr hexagon hf_gray_16
+syn keyword rtlangWord hierarchy hollow image_map inside_vector interior interpolate intersection inverse ior
+syn keyword rtlangWord irid irid_wavelength isosurface jitter jpeg julia lambda leopard light_source location
+syn keyword rtlangWord look_at looks_like magnet major_radius mandel map_type marble material matrix
+syn keyword rtlangWord max_gradient max_intersections max_trace max_trace_level media_attenuation
 syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
 syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
 syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
