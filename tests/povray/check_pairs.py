@@ -45,6 +45,9 @@ LEFT_OUT = {
     "function pigment_pattern spiral2 warp repeat flip black_hole strength orientation dist_exp major_radius toroidal":
     "tests/povray/pattern_*.scn and warp_*.scn have them",
     "tiles": "tests/povray/texture_tiles*.scn have them",
+    "isosurface contained_by accuracy max_gradient max_trace all_intersections evaluate": "tests/povray/shape_isosurface*.scn"
+    " have them",
+    "magnet exterior": "tests/povray/pattern_fractal_*.scn have them",
     "perspective split_union": "on unless something else is said; tests/povray/*.scn have them",
     "camera light_source sphere global_settings declare": "in every scene",
 }
