@@ -133,6 +133,29 @@ static double kummer_surface(const Noise *noise, const double *a)
     return field(a[3], x2 * x2 + y2 * y2 + z2 * z2 - x2 - y2 - z2 - x2 * y2 - x2 * z2 - y2 * z2 + 1.0);
 }
 
+// From -length / 2 to length / 2, again and again.
+static double nearest(double x, double length)
+{
+    return x - length * floor(x / length + 0.5);
+}
+
+static double hexagon(double x, double y)
+{
+    const double root3 = 0x1.bb67ae8584caap+0;
+    x = fabs(nearest(x, root3));
+    double slope = x / 2.0 + root3 / 2.0 * fabs(nearest(y, 3.0));
+    return x > slope ? x : slope;
+}
+
+// The distance from the nearest middle of six-sided tiles, as they have it.
+static double hexagons(const Noise *noise, const double *a)
+{
+    const double root3 = 0x1.bb67ae8584caap+0;
+    double one = hexagon(a[0], a[1]), other = hexagon(a[0] - root3 / 2.0, a[1] - 1.5);
+    (void)noise;
+    return one < other ? one : other;
+}
+
 // F. K. Musgrave's ridged multifractal terrain, in "Texturing and Modeling: A Procedural Approach", with H, lacunarity,
 // octaves, offset, gain and a noise generator.
 static double ridged_multifractal(const Noise *noise, const double *a)
@@ -162,10 +185,15 @@ typedef struct Row {
 } Row;
 
 static const Row rows[GIVEN_SURFACES] = {
-    [11] = {crossed_trough, 4},    [12] = {cubic_saddle, 4},       [13] = {cushion, 4},        [14] = {devils_curve, 4},
-    [17] = {ellipsoid, 6},         [23] = {heart, 4},              [36] = {kummer_surface, 4}, [41] = {mitre, 4},
-    [45] = {paraboloid, 4},        [54] = {quartic_paraboloid, 4}, [55] = {quartic_saddle, 4}, [59] = {ridged_multifractal, 9},
-    [60] = {rounded_box, 7},       [65] = {steiners_roman, 4},     [68] = {superellipsoid, 5}, [70] = {torus, 5},
+    [11] = {crossed_trough, 4}, [12] = {cubic_saddle, 4},
+    [13] = {cushion, 4},        [14] = {devils_curve, 4},
+    [17] = {ellipsoid, 6},      [23] = {heart, 4},
+    [27] = {hexagons, 4},
+    [36] = {kummer_surface, 4}, [41] = {mitre, 4},
+    [45] = {paraboloid, 4},     [54] = {quartic_paraboloid, 4},
+    [55] = {quartic_saddle, 4}, [59] = {ridged_multifractal, 9},
+    [60] = {rounded_box, 7},    [65] = {steiners_roman, 4},
+    [68] = {superellipsoid, 5}, [70] = {torus, 5},
     [71] = {torus2, 6},
 };
 

@@ -1,7 +1,8 @@
 // Functions that POV-Ray gives to scenes by number, as functions.inc names them, for surfaces where they are 0.
 //
-// Turns three coordinates and the parameters of one into a number. Formulas are those of the shapes' names; signs, bounds
-// and the small distance of f_rounded_box are as POV-Ray evaluates them, found by evaluating it at chosen points.
+// Turns three coordinates and the parameters of one into a number. Formulas are those of the shapes' names; signs,
+// bounds and the small distance of f_rounded_box are as POV-Ray evaluates them, found by evaluating it at chosen
+// points.
 //
 // SPDX-License-Identifier: MIT
 #ifndef MATH_GIVEN_SURFACE_H

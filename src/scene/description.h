@@ -212,6 +212,7 @@ typedef struct BlobMember BlobMember;
 struct BlobMember {
     const BlobMember *earlier;
     BlobComponent component;
+    const TextureDesc *texture; // its own, in the blob's space; NULL: it has none
 };
 
 typedef struct BlobDesc {
@@ -219,6 +220,8 @@ typedef struct BlobDesc {
     double threshold;
     const BlobMember *members;
     uint32_t count;
+    uint32_t texture_count;
+    const TextureDesc *const *textures; // of components, by number from 1 on
     Numbers list; // all that a part wants of it (scene/blob.h)
 } BlobDesc;
 
@@ -244,7 +247,7 @@ typedef struct IsosurfaceDesc {
 
 // A component while it is read.
 typedef struct BlobPartDesc {
-    Transform transform;
+    ObjectPart part;
     Vec3 base, cap;
     double radius, strength;
 } BlobPartDesc;

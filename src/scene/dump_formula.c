@@ -161,9 +161,10 @@ static bool write_given(const Formulas *formulas, uint32_t first, TextBuffer *ou
     }
     bool is_noise = step->op == FORMULA_NOISE || step->op == FORMULA_NOISE_CHOSEN;
     if (step->op == FORMULA_GIVEN || is_noise) {
-        text_printf(out, "{ internal(%lu) }", step->op == FORMULA_GIVEN   ? (unsigned long)step->which
-                                              : step->op == FORMULA_NOISE ? 76ul
-                                                                          : 78ul);
+        text_printf(out, "{ internal(%lu) }",
+                    step->op == FORMULA_GIVEN   ? (unsigned long)step->which
+                    : step->op == FORMULA_NOISE ? 76ul
+                                                : 78ul);
         return true;
     }
     return false;

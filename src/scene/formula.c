@@ -7,6 +7,7 @@
 #include "scene/formula.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/number.h"
 #include "math/given_surface.h"
@@ -184,4 +185,19 @@ void formula_run(const FormulaSource *source, uint32_t first, const double *slot
             top -= of_more(&place, step, top) - 1;
         }
     }
+}
+
+const FormulaHost *scene_formula_host(Scene *scene)
+{
+    Noise *noise = scene->formula_host ? NULL : malloc(sizeof *noise);
+    if (noise) {
+        scene->formula_host = calloc(1, sizeof *scene->formula_host);
+    }
+    if (!noise || !scene->formula_host) {
+        free(noise);
+        return scene->formula_host;
+    }
+    noise_init(noise, NULL);
+    scene->formula_host->noise = noise;
+    return scene->formula_host;
 }

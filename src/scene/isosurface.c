@@ -86,8 +86,8 @@ typedef struct Place {
 } Place;
 
 enum {
-    HALVINGS_MOST = 64,  // more leave nothing of a double
-    ASKED_EVERY = 1024,  // so often it is asked whether somebody wants the answer
+    HALVINGS_MOST = 64, // more leave nothing of a double
+    ASKED_EVERY = 1024, // so often it is asked whether somebody wants the answer
 };
 
 static Place place_at(const IsosurfaceLine *line, double t, double sign)
@@ -102,7 +102,7 @@ bool isosurface_find(IsosurfaceLine *line, double from, double to, bool up, doub
     unsigned count = 0;
     for (unsigned asked = 1;; asked++) {
         double length = end.t - begin.t, steep = fabs(begin.f - end.f) / length;
-        line->steepest = steep > line->steepest && steep <= HUGE_VAL ? steep : line->steepest;
+        line->steepest = steep > line->steepest && steep < HUGE_VAL ? steep : line->steepest;
         bool is_left_out = begin.f + end.f >= line->rise * length;
         bool is_short = length < line->step || count == HALVINGS_MOST;
         if (!is_left_out && !is_short) {

@@ -14,9 +14,9 @@
 #include "scene/numbers.h"
 
 enum {
-    ISOSURFACE_OPEN = 1,  // its container has no surface
-    ISOSURFACE_ROUND = 2, // its container is a ball
-    ISOSURFACE_NOISY = 4, // some step asks for noise
+    ISOSURFACE_OPEN = 1,    // its container has no surface
+    ISOSURFACE_ROUND = 2,   // its container is a ball
+    ISOSURFACE_NOISY = 4,   // some step asks for noise
     ISOSURFACE_PAINTED = 8, // or a pattern or pigment
 };
 
@@ -27,9 +27,9 @@ enum { ISOSURFACE_ROOTS_MOST = 10 };
 typedef struct Isosurface {
     double first, step_count, room; // the formula, its steps, numbers that it holds at a time
     double threshold, accuracy, max_gradient;
-    double flags; // ISOSURFACE_...
-    double roots_most; // `max_trace`
-    double generator;  // of noise
+    double flags;           // ISOSURFACE_...
+    double roots_most;      // `max_trace`
+    double generator;       // of noise
     double low[3], high[3]; // of a box; of a ball its middle and, three times, its radius
 } Isosurface;
 
@@ -69,7 +69,7 @@ typedef struct IsosurfaceLine {
     FormulaSource source;
     Ray ray;
     double step, rise;
-    double steepest; // so much the function has changed on 1 of the line, as far as was seen
+    double steepest;                     // so much the function has changed on 1 of the line, as far as was seen
     bool (*is_over)(const void *client); // true: nobody wants the answer; NULL: somebody does
     const void *client;
 } IsosurfaceLine;

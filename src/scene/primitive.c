@@ -309,24 +309,6 @@ static bool blob_holds(const Part *part, Vec3 p)
     return blob_field(part->list.items, p) > part->list.items[0];
 }
 
-static void blob_dump(const Part *part, TextBuffer *out)
-{
-    Blob blob = blob_of(part->list.items);
-    dump_number(out, "threshold ", blob.threshold);
-    for (uint32_t i = 0; i < blob.component_count; i++) {
-        const BlobComponent *component = &blob.components[i];
-        if (component->is_rod != 0.0) {
-            dump_number(out, " cylinder { 0, ", component->height);
-            dump_number(out, "*z, 1, ", component->strength);
-        } else {
-            dump_number(out, " sphere { 0, 1, ", component->strength);
-        }
-        text_append(out, " matrix ");
-        dump_numbers(out, &component->to_world[0][0], 12);
-        text_append(out, " }");
-    }
-}
-
 // Alone it is asked for the first few only.
 static uint32_t blob_part_intervals(const Part *part)
 {
@@ -534,7 +516,6 @@ static const PrimitiveClass classes[] = {
                    .interval_most = blob_part_intervals,
                    .support = box_support,
                    .holds = blob_holds,
-                   .dump = blob_dump,
                    .measure = box_measure},
     [PART_PRISM] = {.word = "prism",
                     .head = "prism { ",

@@ -94,6 +94,7 @@ void scene_fini(Scene *scene)
     }
     ARRAY_FREE(&scene->meshes);
     ARRAY_FREE(&scene->face_materials);
+    ARRAY_FREE(&scene->blobs);
     ARRAY_FREE(&scene->nodes);
     ARRAY_FREE(&scene->composites);
     ARRAY_FREE(&scene->start_shapes);
@@ -264,7 +265,7 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->texture_entries) + LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) +
            LIST_BYTES(scene->compounds) + LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) +
            LIST_BYTES(scene->planes) + LIST_BYTES(scene->parts) + LIST_BYTES(scene->meshes) +
-           LIST_BYTES(scene->face_materials) + scene->mesh_bytes + LIST_BYTES(scene->nodes) +
+           LIST_BYTES(scene->face_materials) + LIST_BYTES(scene->blobs) + scene->mesh_bytes + LIST_BYTES(scene->nodes) +
            LIST_BYTES(scene->composites) + LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
            LIST_BYTES(scene->formula_steps) + LIST_BYTES(scene->warps) + LIST_BYTES(scene->picture_sources) +
            LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) + LIST_BYTES(scene->pictures) +
@@ -421,21 +422,6 @@ bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIn
     }
     scene->shape_count++;
     return true;
-}
-
-const FormulaHost *scene_formula_host(Scene *scene)
-{
-    Noise *noise = scene->formula_host ? NULL : malloc(sizeof *noise);
-    if (noise) {
-        scene->formula_host = calloc(1, sizeof *scene->formula_host);
-    }
-    if (!noise || !scene->formula_host) {
-        free(noise);
-        return scene->formula_host;
-    }
-    noise_init(noise, NULL);
-    scene->formula_host->noise = noise;
-    return scene->formula_host;
 }
 
 // Its list of numbers becomes the scene's.

@@ -482,6 +482,7 @@ typedef struct Scene {
     size_t mesh_bytes;    // of all of them
     uint32_t plain_mesh_count; // of them, without textures of their own
     ARRAY(MaterialIndex) face_materials;
+    ARRAY(Numbers) blobs; // lists that textures are weighed by
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
     ARRAY(StartShape) start_shapes; // in the order of shapes

@@ -357,6 +357,13 @@ static const SchemaProperty blob_properties[] = {
     {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
 };
 
+static const SchemaProperty blob_part_properties[] = {
+    {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "of the component; where fields overlap each weighs as much as it is"},
+    {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "pigment of that texture"},
+    {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "normal of that texture"},
+    {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "finish of that texture"},
+};
+
 static const SchemaProperty blob_ball_arguments[] = {
     {"centre", TYPE_VECTOR, AT(BlobPartDesc, base), .doc = "its middle"},
     {"radius", TYPE_NUMBER, AT(BlobPartDesc, radius), .range = POSITIVE, .doc = "where its field ends"},
@@ -371,7 +378,7 @@ static const SchemaProperty blob_rod_arguments[] = {
 };
 
 static const BlobDesc blob_defaults = {.part = OBJECT_PART, .threshold = 1.0};
-static const BlobPartDesc blob_part_defaults = {.transform = IDENTITY, .radius = 1.0, .strength = 1.0};
+static const BlobPartDesc blob_part_defaults = {.part = OBJECT_PART, .radius = 1.0, .strength = 1.0};
 
 static const PolynomialDesc quadric_defaults = {.part = OBJECT_PART, .order = 2};
 static const PolynomialDesc cubic_defaults = {.part = OBJECT_PART, .order = 3};
@@ -844,14 +851,14 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                         .size = sizeof(BlobPartDesc),
                         .defaults = &blob_part_defaults,
                         .arguments = LIST(blob_ball_arguments),
-                        .groups = {LIST(transforms)},
+                        .groups = {LIST(blob_part_properties), LIST(transforms)},
                         .doc = "A component of a blob."},
     [KIND_BLOB_ROD] = {.word = "cylinder",
                        .inside = "blob",
                        .size = sizeof(BlobPartDesc),
                        .defaults = &blob_part_defaults,
                        .arguments = LIST(blob_rod_arguments),
-                       .groups = {LIST(transforms)},
+                       .groups = {LIST(blob_part_properties), LIST(transforms)},
                        .doc = "A component of a blob."},
     [KIND_ISOSURFACE] = {.word = "isosurface",
                          .what = "an isosurface",

@@ -366,6 +366,10 @@ bool shape_is_flat(SchemaKind kind, const void *object);
 // blob.c
 bool blob_part_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool blob_close(Block *block) RT_MUST_CHECK;
+// The texture of a blob whose components have some, as it lies in the blob's space; `own` is that of the others, under
+// `outer`.
+bool blob_blend(Eval *ev, const BlobDesc *blob, const TextureDesc *own, const Transform *outer,
+                TextureDesc *blend) RT_MUST_CHECK;
 const char *blob_form(const void *object, Part *part);
 bool blob_holds(const void *object, Vec3 point, bool is_turned);
 

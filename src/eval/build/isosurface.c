@@ -82,8 +82,8 @@ bool isosurface_evaluate_action(Block *block, const SchemaProperty *property, co
             return false;
         }
         if (!(desc->evaluate[i] > 0.0) || !isfinite(desc->evaluate[i])) {
-            return block_fault(block, DIAG_E0341, span, "each of the numbers of `evaluate` must be greater than 0, not %g",
-                               desc->evaluate[i]);
+            return block_fault(block, DIAG_E0341, span,
+                               "each of the numbers of `evaluate` must be greater than 0, not %g", desc->evaluate[i]);
         }
         if (i < 2) {
             cursor_take_comma(&block->cursor);
@@ -118,14 +118,14 @@ static bool make_list(Block *block, const Scene *scene, uint32_t first, Numbers 
         return eval_no_memory(block->ev, block->node->span);
     }
     int roots = desc->roots_most < ISOSURFACE_ROOTS_MOST ? desc->roots_most : ISOSURFACE_ROOTS_MOST;
-    unsigned flags = (desc->is_open ? (unsigned)ISOSURFACE_OPEN : 0) |
-                     (desc->container.is_ball ? (unsigned)ISOSURFACE_ROUND : 0);
+    unsigned flags =
+        (desc->is_open ? (unsigned)ISOSURFACE_OPEN : 0) | (desc->container.is_ball ? (unsigned)ISOSURFACE_ROUND : 0);
     for (size_t i = 0; i < steps; i++) {
         uint32_t op = scene->formula_steps.items[i].op;
         bool is_noisy = op == FORMULA_GIVEN && given_surface_asks_noise(scene->formula_steps.items[i].which);
         flags |= op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN || is_noisy ? (unsigned)ISOSURFACE_NOISY
-                 : op == FORMULA_PATTERN || op == FORMULA_PIGMENT ? (unsigned)ISOSURFACE_PAINTED
-                                                                  : 0;
+                 : op == FORMULA_PATTERN || op == FORMULA_PIGMENT              ? (unsigned)ISOSURFACE_PAINTED
+                                                                               : 0;
     }
     Isosurface head = {.first = first,
                        .step_count = (double)steps,
@@ -208,9 +208,10 @@ static bool check_gradient(Block *block)
     const IsosurfaceDesc *desc = &block->record->isosurface;
     double found = steepest(desc), said = isosurface_of(desc->list.items)->max_gradient;
     if (found > 1.001 * said) { // less shows nowhere
-        eval_warn(block->ev, DIAG_W0485, block->node->span,
-                  "the function changes by %.4g over a length of 1, and `max_gradient` is %.4g: the surface may have holes",
-                  found, said);
+        eval_warn(
+            block->ev, DIAG_W0485, block->node->span,
+            "the function changes by %.4g over a length of 1, and `max_gradient` is %.4g: the surface may have holes",
+            found, said);
     }
     return eval_step(block->ev, block->node->span);
 }

@@ -1,5 +1,5 @@
-// Steps are those of the scene language's manual; when a point has left, and that it counts as left in a magnet where it
-// has come to 1, was measured. docs/language.md, "Patterns". Knows nothing of colours.
+// Steps are those of the scene language's manual; when a point has left, and that it counts as left in a magnet where
+// it has come to 1, was measured. docs/language.md, "Patterns". Knows nothing of colours.
 //
 // SPDX-License-Identifier: MIT
 #include "render/surface/pattern_fractal.h"
@@ -99,11 +99,16 @@ static Orbit orbit_of(const Pattern *pattern, Vec3 p)
 static double last_of(Complex z, int what)
 {
     switch (what) {
-    case 2: return z.re;
-    case 3: return z.im;
-    case 4: return z.re * z.re;
-    case 5: return z.im * z.im;
-    default: return sqrt(square_of(z));
+    case 2:
+        return z.re;
+    case 3:
+        return z.im;
+    case 4:
+        return z.re * z.re;
+    case 5:
+        return z.im * z.im;
+    default:
+        return sqrt(square_of(z));
     }
 }
 

@@ -9,10 +9,12 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "math/extreme.h"
 #include "math/given_surface.h"
 #include "render/surface/formula.h"
+#include "scene/blob.h"
 #include "scene/corners.h"
 
 static Transform way_back(const Transform *to_world)
@@ -325,6 +327,37 @@ static void walk_corners(Walk *walk, uint32_t first, const TexturePlace *place, 
     }
 }
 
+static double field_size(const BlobComponent *component, Vec3 point)
+{
+    Vec3 own;
+    double inner = 1.0 - blob_distance2(component, point, &own);
+    return inner > 0.0 ? fabs(component->strength) * inner * inner : 0.0;
+}
+
+// Textures of a blob's components, each weighed by its field; what is left out is as at corners. Measured.
+static void walk_fields(Walk *walk, const Texture *texture, const TexturePlace *here, double part, Rgb above)
+{
+    const Scene *scene = walk->table->scene;
+    const TextureEntry *entries = scene->texture_entries.items;
+    Blob blob = blob_of(scene->blobs.items[texture->pattern.image].items);
+    double shares[blob.component_count + 1], sum = 0.0; // there are no more textures than that
+    memset(shares, 0, (blob.component_count + 1) * sizeof *shares);
+    for (uint32_t i = 0; i < blob.component_count; i++) {
+        sum += field_size(&blob.components[i], here->point);
+    }
+    for (uint32_t i = 0; i < blob.component_count && sum > 0.0; i++) {
+        double share = field_size(&blob.components[i], here->point) / sum;
+        shares[(size_t)blob.components[i].texture] += share >= walk->cut ? share : 0.0;
+    }
+    shares[0] = sum > 0.0 ? shares[0] : 1.0;
+    uint32_t at = texture->entries;
+    for (uint32_t i = 0; at != RECORD_NONE; i++, at = entries[at].next) {
+        if (shares[i] > 0.0) {
+            walk_layers(walk, entries[at].texture, i == 0 ? here->outer : here, part * shares[i], above);
+        }
+    }
+}
+
 static void walk_average(Walk *walk, uint32_t first, const TexturePlace *place, double part, Rgb above)
 {
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
@@ -345,6 +378,10 @@ static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, 
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
     Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer->point);
     TexturePlace here = {pattern_moved(&texture->pattern, &walk->table->source, point), index, outer};
+    if (texture_is_of_fields(texture)) {
+        walk_fields(walk, texture, &here, part, above);
+        return;
+    }
     if (texture->pattern.type == PATTERN_AVERAGE) {
         (texture_is_of_corners(texture) ? walk_corners : walk_average)(walk, texture->entries, &here, part, above);
         return;
