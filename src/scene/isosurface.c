@@ -104,10 +104,12 @@ bool isosurface_find(IsosurfaceLine *line, double from, double to, bool up, doub
         double length = end.t - begin.t, steep = fabs(begin.f - end.f) / length;
         line->steepest = steep > line->steepest && steep < HUGE_VAL ? steep : line->steepest;
         bool is_left_out = begin.f + end.f >= line->rise * length;
-        bool is_short = length < line->step || count == HALVINGS_MOST;
+        double middle = begin.t + 0.5 * length;
+        bool is_short =
+            length < line->step || count == HALVINGS_MOST || !(begin.t < middle && middle < end.t); // between doubles
         if (!is_left_out && !is_short) {
             waiting[count++] = end;
-            end = place_at(line, begin.t + 0.5 * length, sign);
+            end = place_at(line, middle, sign);
             continue;
         }
         if (!is_left_out && end.f < 0.0) {
