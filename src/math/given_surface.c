@@ -185,15 +185,23 @@ typedef struct Row {
 } Row;
 
 static const Row rows[GIVEN_SURFACES] = {
-    [11] = {crossed_trough, 4}, [12] = {cubic_saddle, 4},
-    [13] = {cushion, 4},        [14] = {devils_curve, 4},
-    [17] = {ellipsoid, 6},      [23] = {heart, 4},
+    [11] = {crossed_trough, 4},
+    [12] = {cubic_saddle, 4},
+    [13] = {cushion, 4},
+    [14] = {devils_curve, 4},
+    [17] = {ellipsoid, 6},
+    [23] = {heart, 4},
     [27] = {hexagons, 4},
-    [36] = {kummer_surface, 4}, [41] = {mitre, 4},
-    [45] = {paraboloid, 4},     [54] = {quartic_paraboloid, 4},
-    [55] = {quartic_saddle, 4}, [59] = {ridged_multifractal, 9},
-    [60] = {rounded_box, 7},    [65] = {steiners_roman, 4},
-    [68] = {superellipsoid, 5}, [70] = {torus, 5},
+    [36] = {kummer_surface, 4},
+    [41] = {mitre, 4},
+    [45] = {paraboloid, 4},
+    [54] = {quartic_paraboloid, 4},
+    [55] = {quartic_saddle, 4},
+    [59] = {ridged_multifractal, 9},
+    [60] = {rounded_box, 7},
+    [65] = {steiners_roman, 4},
+    [68] = {superellipsoid, 5},
+    [70] = {torus, 5},
     [71] = {torus2, 6},
 };
 

@@ -1,9 +1,9 @@
 // Textures that are weighed by where a point is: averages whose Pattern.count says how.
 //
-// Of a face with other textures at its corners it is PATTERN_CORNERS: in the space of the pattern x and y are the weights
-// of the second and the third corner. Of a blob whose components have textures it is PATTERN_FIELDS: the pattern's space
-// is the blob's own, and each component of Scene.blobs[image] weighs as much as its field, whatever its sign. The first
-// entry is the texture of those that have none, as it lies around the pattern; the others are in it.
+// Of a face with other textures at its corners it is PATTERN_CORNERS: in the space of the pattern x and y are the
+// weights of the second and the third corner. Of a blob whose components have textures it is PATTERN_FIELDS: the
+// pattern's space is the blob's own, and each component of Scene.blobs[image] weighs as much as its field, whatever its
+// sign. The first entry is the texture of those that have none, as it lies around the pattern; the others are in it.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_CORNERS_H

@@ -240,8 +240,8 @@ typedef struct IsosurfaceDesc {
     int roots_most;
     bool is_open;
     const struct Function *function;
-    Numbers list; // all that a part wants of it (scene/isosurface.h)
-    const FormulaHost *host; // of its function, if that asks for noise or patterns; else NULL
+    Numbers list;                   // all that a part wants of it (scene/isosurface.h)
+    const FormulaHost *host;        // of its function, if that asks for noise or patterns; else NULL
     struct Painted *const *painted; // what its steps ask by number, as a scene's have it by the place of a pattern
 } IsosurfaceDesc;
 

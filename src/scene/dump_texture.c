@@ -76,7 +76,7 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
     }
     bool is_fractal = pattern->type == PATTERN_MANDEL || pattern->type == PATTERN_JULIA;
     if (is_fractal && (pattern->exterior != 1 || pattern->exterior_factor != 1.0 || pattern->interior != 0 ||
-        pattern->interior_factor != 1.0)) {
+                       pattern->interior_factor != 1.0)) {
         dump_told(pattern, out);
     }
     dump_number(out, "  frequency ", pattern->frequency);

@@ -1,5 +1,6 @@
-// A line in isosurfaces of random waves: what is found and left out, beside the function itself in small steps; the same
-// at sizes that are powers of two, bit for bit; and functions that are no number, or of a gradient that is too low.
+// A line in isosurfaces of random waves: what is found and left out, beside the function itself in small steps; the
+// same at sizes that are powers of two, bit for bit; and functions that are no number, or of a gradient that is too
+// low.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/isosurface.h"
@@ -51,10 +52,14 @@ static void make_list(const Waves *w, double accuracy, double share, double list
     unsigned count = 0;
     memset(steps, 0, sizeof steps);
     for (int i = 0; i < WAVES; i++) {
-        const FormulaStep own[] = {{.op = FORMULA_SLOT, .which = w->axis[i]}, {.op = FORMULA_NUMBER, .number = w->b[i]},
-                                   {.op = FORMULA_MUL},                       {.op = FORMULA_NUMBER, .number = w->c[i]},
-                                   {.op = FORMULA_ADD},                       {.op = FORMULA_SIN},
-                                   {.op = FORMULA_NUMBER, .number = w->a[i]}, {.op = FORMULA_MUL}};
+        const FormulaStep own[] = {{.op = FORMULA_SLOT, .which = w->axis[i]},
+                                   {.op = FORMULA_NUMBER, .number = w->b[i]},
+                                   {.op = FORMULA_MUL},
+                                   {.op = FORMULA_NUMBER, .number = w->c[i]},
+                                   {.op = FORMULA_ADD},
+                                   {.op = FORMULA_SIN},
+                                   {.op = FORMULA_NUMBER, .number = w->a[i]},
+                                   {.op = FORMULA_MUL}};
         memcpy(&steps[count], own, sizeof own);
         count += 8;
         if (i > 0) {
@@ -90,7 +95,8 @@ static void test_lines(uint64_t seed)
     Random random = {seed};
     int wrong = 0, missed = 0, found = 0, none = 0, rays = getenv("CHECK_LONG") ? 5000 : 150;
     for (int i = 0; i < rays; i++) {
-        double list[LIST], length = random_between(&random, 0.5, 3.0), accuracy = random_between(&random, 0.001, 0.02), t;
+        double list[LIST], length = random_between(&random, 0.5, 3.0), accuracy = random_between(&random, 0.001, 0.02),
+                           t;
         Waves w = random_waves(&random);
         make_list(&w, accuracy, 1.0, list);
         Ray ray = {random_vec3(&random, -1.0, 1.0), vec3_normalize(random_vec3(&random, -1.0, 1.0))};
@@ -106,8 +112,8 @@ static void test_lines(uint64_t seed)
         missed += t > accuracy && has_missed(&w, &ray, t - accuracy, accuracy, up);
         wrong += line.steepest > line.rise * (1.0 + 1e-9);
     }
-    tap_ok(wrong == 0 && found > rays / 4, "where a surface is found the function has changed its sign (%d of %d)", wrong,
-           found);
+    tap_ok(wrong == 0 && found > rays / 4, "where a surface is found the function has changed its sign (%d of %d)",
+           wrong, found);
     tap_ok(missed == 0 && none > rays / 20, "no surface is passed over that is thicker than the accuracy (%d of %d)",
            missed, found + none);
 }
@@ -122,7 +128,8 @@ static double hit_of(const double *list, uint64_t count, double size, int expone
     part.fixed[0] = vec3(-1.0, -1.0, -1.0);
     part.fixed[1] = vec3(1.0, 1.0, 1.0);
     part.list = (Numbers){list, count};
-    part.to_world = transform_compose(transform_rotate(vec3(10.0, 20.0, 30.0)), transform_scale(vec3(size, size, size)));
+    part.to_world =
+        transform_compose(transform_rotate(vec3(10.0, 20.0, 30.0)), transform_scale(vec3(size, size, size)));
     Geometry *geometry = part_finish(&part) && scene_add_part(&scene, &part) ? geometry_new(&scene, exponent) : NULL;
     if (!geometry || !geometry_closest(geometry, TRACE_PARTS, ray, RAY_START_FREE, (double)INFINITY, &hit)) {
         hit.t = -1.0;
@@ -150,7 +157,8 @@ static void test_sizes(uint64_t seed)
         different += one < 0.0 ? other >= 0.0 : ldexp(other, exponent - k) != one;
         hits += one >= 0.0;
     }
-    tap_ok(different == 0 && hits > 30, "the same at any size, but for powers of two (%d of %d are not)", different, hits);
+    tap_ok(different == 0 && hits > 30, "the same at any size, but for powers of two (%d of %d are not)", different,
+           hits);
 }
 
 static void test_no_numbers(void)

@@ -288,8 +288,8 @@ static bool make_body(Maker *maker, const Function *function, Made *made)
                           (int)FORMULA_STEPS_MOST);
     }
     if (fine && made->room > FORMULA_STACK_MOST) {
-        return eval_fault(maker->ev, DIAG_E0606, maker->span,
-                          "a function that holds more than %d numbers at a time", (int)FORMULA_STACK_MOST);
+        return eval_fault(maker->ev, DIAG_E0606, maker->span, "a function that holds more than %d numbers at a time",
+                          (int)FORMULA_STACK_MOST);
     }
     return fine;
 }

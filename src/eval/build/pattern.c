@@ -574,7 +574,8 @@ static bool read_told(Block *block, const SchemaProperty *property, Span span)
     bool is_exterior = strcmp(property->word, "exterior") == 0;
     SchemaProperty type = {property->word, TYPE_INTEGER, ACTION_NONE, .range = {RANGE_FAULT, false, 0.0, 6.0}};
     SchemaProperty factor = {property->word, TYPE_NUMBER, ACTION_NONE, .at = 0};
-    type.at = (uint16_t)(is_exterior ? offsetof(PatternPart, pattern.exterior) : offsetof(PatternPart, pattern.interior));
+    type.at =
+        (uint16_t)(is_exterior ? offsetof(PatternPart, pattern.exterior) : offsetof(PatternPart, pattern.interior));
     factor.at = (uint16_t)(is_exterior ? offsetof(PatternPart, pattern.exterior_factor)
                                        : offsetof(PatternPart, pattern.interior_factor));
     if (!block_value(block, &type, span)) {

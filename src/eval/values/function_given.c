@@ -1,8 +1,8 @@
 // The functions that POV-Ray has built in and gives to scenes by number, as functions.inc names them.
 //
-// Turns `function { internal(n) }` into a function of as many numbers as POV-Ray's takes: noise, distances, and surfaces
-// for isosurfaces (math/given_surface.h); others are kept as functions that are a fault where they are called. Owns
-// nothing.
+// Turns `function { internal(n) }` into a function of as many numbers as POV-Ray's takes: noise, distances, and
+// surfaces for isosurfaces (math/given_surface.h); others are kept as functions that are a fault where they are called.
+// Owns nothing.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
