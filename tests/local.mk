@@ -61,6 +61,7 @@ unit_programs = \
   tests/unit/test_polynomial \
   tests/unit/test_mesh \
   tests/unit/test_blob \
+  tests/unit/test_isosurface \
   tests/unit/test_prism \
   tests/unit/test_revolved \
   tests/unit/test_superellipsoid \
@@ -142,6 +143,8 @@ tests_unit_test_torus_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
 tests/unit/test_torus.$(OBJEXT): src/study/optional.h
 tests_unit_test_blob_SOURCES = %D%/unit/test_blob.c $(unit_headers)
 tests_unit_test_blob_LDADD = $(UNIT_TRACE)
+tests_unit_test_isosurface_SOURCES = %D%/unit/test_isosurface.c $(unit_headers)
+tests_unit_test_isosurface_LDADD = $(UNIT_TRACE)
 tests_unit_test_polynomial_SOURCES = %D%/unit/test_polynomial.c %D%/unit/roots_oracle.h $(unit_headers)
 tests_unit_test_polynomial_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
 tests/unit/test_polynomial.$(OBJEXT): src/study/optional.h

@@ -43,6 +43,26 @@ syn keyword rtlangWord orientation orthographic panoramic parallel pattern persp
 syn keyword rtlangWord phong_size pigment pigment_map pigment_pattern planar plane png point_at poly poly_wave
 syn keyword rtlangWord polygon ppm premultiplied prism quadric quartic quick_color quick_colour quilted radial
 syn keyword rtlangWord radius ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
+syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo all_intersections ambient
+syn keyword rtlangWord ambient_light angle aperture area_light assumed_gamma average background black_hole
+syn keyword rtlangWord blob blur_samples bounded_by box boxed bozo brick brick_size brilliance bump_size bumps
+syn keyword rtlangWord camera caustics cells charset checker circular clipped_by color_map colour_map
+syn keyword rtlangWord component cone confidence conserve_energy contained_by control0 control1 crackle crand
+syn keyword rtlangWord cubic cubic_wave cylinder cylindrical dents difference diffuse direction disc dist_exp
+syn keyword rtlangWord distance emission evaluate exponent exr exterior fade_color fade_colour fade_distance
+syn keyword rtlangWord fade_power falloff finish fisheye flip focal_point fog fog_alt fog_offset fog_type form
+syn keyword rtlangWord frequency fresnel gamma global_settings gradient granite hdr hexagon hf_gray_16
+syn keyword rtlangWord hierarchy hollow image_map inside_vector interior interpolate intersection inverse ior
+syn keyword rtlangWord irid irid_wavelength isosurface jitter jpeg julia lambda leopard light_source location
+syn keyword rtlangWord look_at looks_like magnet major_radius mandel map_type marble material matrix
+syn keyword rtlangWord max_gradient max_intersections max_trace max_trace_level media_attenuation
+syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
+syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
+syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
+syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
+syn keyword rtlangWord pigment_map pigment_pattern planar plane png point_at poly poly_wave polygon ppm
+syn keyword rtlangWord premultiplied prism quadric quartic quick_color quick_colour quilted radial radius
+syn keyword rtlangWord ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
 syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope_map
 syn keyword rtlangWord smooth_triangle solid sor specular sphere spherical spiral1 spiral2 split_union
 syn keyword rtlangWord spotlight spotted strength sturm superellipsoid text texture texture_map tga thickness

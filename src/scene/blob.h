@@ -17,7 +17,8 @@
 
 // In the list as doubles. `to_world` leads from the component's space to the blob's; to_own back.
 typedef struct BlobComponent {
-    double is_rod, strength, height, unused;
+    double is_rod, strength, height;
+    double texture; // its own, by number from 1; 0: that of the blob
     double to_world[4][3], to_own[4][3];
 } BlobComponent;
 

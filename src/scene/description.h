@@ -212,6 +212,7 @@ typedef struct BlobMember BlobMember;
 struct BlobMember {
     const BlobMember *earlier;
     BlobComponent component;
+    const TextureDesc *texture; // its own, in the blob's space; NULL: it has none
 };
 
 typedef struct BlobDesc {
@@ -219,12 +220,34 @@ typedef struct BlobDesc {
     double threshold;
     const BlobMember *members;
     uint32_t count;
+    uint32_t texture_count;
+    const TextureDesc *const *textures; // of components, by number from 1 on
     Numbers list; // all that a part wants of it (scene/blob.h)
 } BlobDesc;
 
+// What an isosurface is contained by; of a ball `low` is the middle.
+typedef struct ContainerDesc {
+    Vec3 low, high;
+    double radius;
+    bool is_ball, is_given;
+} ContainerDesc;
+
+typedef struct IsosurfaceDesc {
+    ObjectPart part;
+    ContainerDesc container;
+    double threshold, accuracy, max_gradient;
+    double evaluate[3]; // the first is 0: not given
+    int roots_most;
+    bool is_open;
+    const struct Function *function;
+    Numbers list;                   // all that a part wants of it (scene/isosurface.h)
+    const FormulaHost *host;        // of its function, if that asks for noise or patterns; else NULL
+    struct Painted *const *painted; // what its steps ask by number, as a scene's have it by the place of a pattern
+} IsosurfaceDesc;
+
 // A component while it is read.
 typedef struct BlobPartDesc {
-    Transform transform;
+    ObjectPart part;
     Vec3 base, cap;
     double radius, strength;
 } BlobPartDesc;
@@ -403,6 +426,8 @@ typedef union Desc {
     PolynomialDesc polynomial;
     BlobDesc blob;
     BlobPartDesc blob_part;
+    IsosurfaceDesc isosurface;
+    ContainerDesc container;
     PrismDesc prism;
     PolygonDesc polygon;
     LatheDesc lathe;

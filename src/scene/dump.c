@@ -215,7 +215,9 @@ void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *ar
     uint32_t interior = dump_interior_of(scene, material);
     if (material & MATERIAL_COMPOUND) {
         const Compound *compound = &scene->compounds.items[material & ~MATERIAL_COMPOUND];
-        text_printf(out, "%s texture { T%lu }", hollow, (unsigned long)compound->texture + 1);
+        const Texture *fields = dump_fields_of(scene, material);
+        uint32_t texture = fields ? scene->texture_entries.items[fields->entries].texture : compound->texture;
+        text_printf(out, "%s texture { T%lu }", hollow, (unsigned long)texture + 1);
     } else {
         text_printf(out, "%s texture { M%lu }", hollow, (unsigned long)material + 1);
     }

@@ -23,6 +23,12 @@ void dump_pattern(const Scene *scene, const PatternedPigment *record, TextBuffer
 // What a pattern's formula calls, before it; the word with its formula; its warps, and the transforms between them.
 void dump_formula_parts(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out);
+// The texture that a material is of a blob whose components have some; NULL: it is no such.
+const Texture *dump_fields_of(const Scene *scene, MaterialIndex material);
+// All of a blob but its head; `texture` is NULL or that of its components.
+void dump_blob(const Scene *scene, const Part *part, const Texture *texture, TextBuffer *out);
+// All of an isosurface but its head.
+void dump_isosurface(const Scene *scene, const Part *part, TextBuffer *out);
 void dump_warps(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 
 // Declarations of all interiors (I1, …), patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its

@@ -8,6 +8,8 @@
 
 #include <stdlib.h>
 
+#include "scene/isosurface.h"
+
 static const char *const infix[FORMULA_OPS] = {
     [FORMULA_ADD] = "+", [FORMULA_SUB] = "-", [FORMULA_MUL] = "*", [FORMULA_DIV] = "/",
     [FORMULA_EQ] = "=",  [FORMULA_NE] = "!=", [FORMULA_LT] = "<",  [FORMULA_LE] = "<=",
@@ -31,8 +33,20 @@ static const char *const words[FORMULA_OPS] = {
 // The arguments of functions: those of a pattern's own have the first three.
 static const char *const slot_words[] = {"x", "y", "z"};
 
-typedef struct Writer {
+// Where formulas are written from.
+typedef struct Formulas {
     const Scene *scene;
+    const FormulaStep *steps; // the scene's, or an isosurface's own
+    bool is_own;
+} Formulas;
+
+static Formulas formulas_of(const Scene *scene)
+{
+    return (Formulas){scene, scene->formula_steps.items, false};
+}
+
+typedef struct Writer {
+    const Formulas *formulas;
     TextBuffer *out;
     const FormulaStep **steps; // of the formula that is written, in order
     bool is_pattern;           // its arguments are x, y and z
@@ -44,7 +58,7 @@ static unsigned takes(const FormulaStep *step)
     return op <= FORMULA_SLOT                                    ? 0
            : op <= FORMULA_MAX                                   ? 2
            : op <= FORMULA_RADIANS                               ? 1
-           : op == FORMULA_CALL                                  ? (unsigned)step->number
+           : op == FORMULA_CALL || op == FORMULA_GIVEN           ? (unsigned)step->number
            : op == FORMULA_SELECT4 || op == FORMULA_NOISE_CHOSEN ? 4
                                                                  : 3;
 }
@@ -103,7 +117,7 @@ static void write_value(const Writer *writer, size_t last)
         }
         return;
     case FORMULA_CALL:
-        text_printf(out, "G%lu", (unsigned long)step->which);
+        text_printf(out, "%s%lu", writer->formulas->is_own ? "J" : "G", (unsigned long)step->which);
         break;
     case FORMULA_PATTERN:
         text_printf(out, "Q%lu", (unsigned long)step->which);
@@ -119,43 +133,54 @@ static void write_value(const Writer *writer, size_t last)
     write_component(step, out);
 }
 
-static void write_body(const Scene *scene, uint32_t first, bool is_pattern, TextBuffer *out)
+static void write_body(const Formulas *formulas, uint32_t first, bool is_pattern, TextBuffer *out)
 {
     size_t count = 0;
-    for (uint32_t i = first; i != RECORD_NONE; i = scene->formula_steps.items[i].next) {
+    for (uint32_t i = first; i != RECORD_NONE; i = formulas->steps[i].next) {
         count++;
     }
-    Writer writer = {scene, out, malloc((count + 1) * sizeof *writer.steps), is_pattern};
+    Writer writer = {formulas, out, malloc((count + 1) * sizeof *writer.steps), is_pattern};
     if (!writer.steps) {
         out->failed = true;
         return;
     }
     count = 0;
-    for (uint32_t i = first; i != RECORD_NONE; i = scene->formula_steps.items[i].next) {
-        writer.steps[count++] = &scene->formula_steps.items[i];
+    for (uint32_t i = first; i != RECORD_NONE; i = formulas->steps[i].next) {
+        writer.steps[count++] = &formulas->steps[i];
     }
     write_value(&writer, count - 1);
     free(writer.steps);
 }
 
-// Noise is all that a function does that has it: one of those that POV-Ray has built in.
-static bool write_given(const Scene *scene, uint32_t first, TextBuffer *out)
+// Noise, or a given surface, is all that a function does that has it: one of those that POV-Ray has built in.
+static bool write_given(const Formulas *formulas, uint32_t first, TextBuffer *out)
 {
-    const FormulaStep *step = &scene->formula_steps.items[first];
+    const FormulaStep *step = &formulas->steps[first];
     while (step->next != RECORD_NONE) {
-        step = &scene->formula_steps.items[step->next];
+        step = &formulas->steps[step->next];
     }
-    bool is_given = step->op == FORMULA_NOISE || step->op == FORMULA_NOISE_CHOSEN;
-    text_append(out, !is_given ? "" : step->op == FORMULA_NOISE ? "{ internal(76) }" : "{ internal(78) }");
-    return is_given;
+    bool is_noise = step->op == FORMULA_NOISE || step->op == FORMULA_NOISE_CHOSEN;
+    if (step->op == FORMULA_GIVEN || is_noise) {
+        text_printf(out, "{ internal(%lu) }",
+                    step->op == FORMULA_GIVEN   ? (unsigned long)step->which
+                    : step->op == FORMULA_NOISE ? 76ul
+                                                : 78ul);
+        return true;
+    }
+    return false;
 }
 
-static void declare_call(const Scene *scene, const FormulaStep *step, TextBuffer *out)
+// A function that is called; those of the scene's patterns are declared once, by their number.
+static void declare_call(const Formulas *formulas, const FormulaStep *step, TextBuffer *out)
 {
-    text_printf(out, "#ifndef (G%lu) ", (unsigned long)step->which);
-    text_printf(out, "#declare G%lu = function ", (unsigned long)step->which);
-    if (write_given(scene, step->which, out)) {
-        text_append(out, " #end\n");
+    const char *end = formulas->is_own ? "\n" : " #end\n", *letter = formulas->is_own ? "J" : "G";
+    unsigned long number = (unsigned long)step->which;
+    if (!formulas->is_own) {
+        text_printf(out, "#ifndef (%s%lu) ", letter, number);
+    }
+    text_printf(out, "#declare %s%lu = function ", letter, number);
+    if (write_given(formulas, step->which, out)) {
+        text_append(out, end);
         return;
     }
     text_append(out, "(");
@@ -163,24 +188,25 @@ static void declare_call(const Scene *scene, const FormulaStep *step, TextBuffer
         text_printf(out, "%sA%u", i > 0 ? ", " : "", i);
     }
     text_append(out, ") { ");
-    write_body(scene, step->which, false, out);
-    text_append(out, " } #end\n");
+    write_body(formulas, step->which, false, out);
+    text_append(out, " }");
+    text_append(out, end);
 }
 
 // What a formula calls, before it.
-static void declare_parts(const Scene *scene, uint32_t first, TextBuffer *out)
+static void declare_parts(const Formulas *formulas, uint32_t first, TextBuffer *out)
 {
-    for (uint32_t i = first; i != RECORD_NONE; i = scene->formula_steps.items[i].next) {
-        const FormulaStep *step = &scene->formula_steps.items[i];
+    for (uint32_t i = first; i != RECORD_NONE; i = formulas->steps[i].next) {
+        const FormulaStep *step = &formulas->steps[i];
         switch ((FormulaOp)step->op) {
         case FORMULA_CALL:
-            declare_parts(scene, step->which, out);
-            declare_call(scene, step, out);
+            declare_parts(formulas, step->which, out);
+            declare_call(formulas, step, out);
             break;
         case FORMULA_PATTERN:
             text_printf(out, "#ifndef (Q%lu) #declare Q%lu = function { pattern {\n", (unsigned long)step->which,
                         (unsigned long)step->which);
-            dump_pattern(scene, &scene->patterns.items[step->which], out);
+            dump_pattern(formulas->scene, &formulas->scene->patterns.items[step->which], out);
             text_append(out, "} } #end\n");
             break;
         case FORMULA_PIGMENT:
@@ -193,22 +219,55 @@ static void declare_parts(const Scene *scene, uint32_t first, TextBuffer *out)
     }
 }
 
+static void write_function(const Formulas *formulas, uint32_t first, TextBuffer *out)
+{
+    text_append(out, "function ");
+    if (write_given(formulas, first, out)) {
+        return;
+    }
+    text_append(out, "{ ");
+    write_body(formulas, first, true, out);
+    text_append(out, " }");
+}
+
 void dump_formula_parts(const Scene *scene, const Pattern *pattern, TextBuffer *out)
 {
+    Formulas formulas = formulas_of(scene);
     if (pattern->type == PATTERN_FUNCTION) {
-        declare_parts(scene, pattern->image, out);
+        declare_parts(&formulas, pattern->image, out);
     }
 }
 
 void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out)
 {
-    text_append(out, "  function ");
-    if (write_given(scene, pattern->image, out)) {
-        return;
+    Formulas formulas = formulas_of(scene);
+    text_append(out, "  ");
+    write_function(&formulas, pattern->image, out);
+}
+
+// ---- isosurfaces
+
+void dump_isosurface(const Scene *scene, const Part *part, TextBuffer *out)
+{
+    const Isosurface *surface = isosurface_of(part->list.items);
+    Formulas formulas = {scene, isosurface_steps(part->list.items), true};
+    text_append(out, "\n");
+    declare_parts(&formulas, (uint32_t)surface->first, out);
+    write_function(&formulas, (uint32_t)surface->first, out);
+    Vec3 low = vec3(surface->low[0], surface->low[1], surface->low[2]);
+    Vec3 high = vec3(surface->high[0], surface->high[1], surface->high[2]);
+    if (isosurface_is(surface, ISOSURFACE_ROUND)) {
+        dump_vector(out, "\n  contained_by { sphere { ", low);
+        dump_number(out, ", ", high.x);
+    } else {
+        dump_vector(out, "\n  contained_by { box { ", low);
+        dump_vector(out, ", ", high);
     }
-    text_append(out, "{ ");
-    write_body(scene, pattern->image, true, out);
-    text_append(out, " }");
+    dump_number(out, " } } threshold ", surface->threshold);
+    dump_number(out, " accuracy ", surface->accuracy);
+    dump_number(out, " max_gradient ", surface->max_gradient);
+    dump_number(out, " max_trace ", surface->roots_most);
+    text_append(out, isosurface_is(surface, ISOSURFACE_OPEN) ? " open" : "");
 }
 
 // ---- warps

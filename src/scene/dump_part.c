@@ -2,8 +2,42 @@
 // makes it.
 //
 // SPDX-License-Identifier: MIT
+#include "scene/blob.h"
+#include "scene/corners.h"
 #include "scene/dump.h"
 #include "scene/primitive.h"
+
+const Texture *dump_fields_of(const Scene *scene, MaterialIndex material)
+{
+    const Texture *texture = material & MATERIAL_COMPOUND
+                                 ? &scene->textures.items[scene->compounds.items[material & ~MATERIAL_COMPOUND].texture]
+                                 : NULL;
+    return texture && texture_is_of_fields(texture) ? texture : NULL;
+}
+
+// Textures stand in the order of their components, so that each is the next of the list.
+void dump_blob(const Scene *scene, const Part *part, const Texture *texture, TextBuffer *out)
+{
+    Blob blob = blob_of(part->list.items);
+    uint32_t entry = texture ? texture->entries : RECORD_NONE;
+    dump_number(out, "threshold ", blob.threshold);
+    for (uint32_t i = 0; i < blob.component_count; i++) {
+        const BlobComponent *component = &blob.components[i];
+        if (component->is_rod != 0.0) {
+            dump_number(out, " cylinder { 0, ", component->height);
+            dump_number(out, "*z, 1, ", component->strength);
+        } else {
+            dump_number(out, " sphere { 0, 1, ", component->strength);
+        }
+        text_append(out, " matrix ");
+        dump_numbers(out, &component->to_world[0][0], 12);
+        if (texture && component->texture > 0.0) {
+            entry = scene->texture_entries.items[entry].next;
+            text_printf(out, " texture { T%lu }", (unsigned long)scene->texture_entries.items[entry].texture + 1);
+        }
+        text_append(out, " }");
+    }
+}
 
 static void dump_form(const Scene *scene, const Part *part, TextBuffer *out)
 {
@@ -13,6 +47,11 @@ static void dump_form(const Scene *scene, const Part *part, TextBuffer *out)
     }
     const PrimitiveClass *primitive = primitive_class(part->kind);
     text_append(out, primitive->head);
+    if (part->kind == PART_ISOSURFACE) {
+        dump_isosurface(scene, part, out);
+    } else if (part->kind == PART_BLOB) {
+        dump_blob(scene, part, part->flags & PART_UNSEEN ? NULL : dump_fields_of(scene, part->material), out);
+    }
     if (primitive->dump) {
         primitive->dump(part, out);
     }

@@ -48,6 +48,16 @@ static void dump_noise_modifiers(const Pattern *pattern, TextBuffer *out)
     }
 }
 
+// Of fractals: what is told of points that leave, and of those that stay.
+static void dump_told(const Pattern *pattern, TextBuffer *out)
+{
+    text_printf(out, "  exterior %d", (int)pattern->exterior);
+    dump_number(out, ", ", pattern->exterior_factor);
+    text_printf(out, " interior %d", (int)pattern->interior);
+    dump_number(out, ", ", pattern->interior_factor);
+    text_append(out, "\n");
+}
+
 static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
 {
     if (pattern->type == PATTERN_BRICK) {
@@ -60,6 +70,14 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
         dump_number(out, "  control0 ", pattern->vector.x);
         dump_number(out, " control1 ", pattern->vector.y);
         text_append(out, "\n");
+    }
+    if (pattern->power > 2) {
+        text_printf(out, "  exponent %d\n", (int)pattern->power);
+    }
+    bool is_fractal = pattern->type == PATTERN_MANDEL || pattern->type == PATTERN_JULIA;
+    if (is_fractal && (pattern->exterior != 1 || pattern->exterior_factor != 1.0 || pattern->interior != 0 ||
+                       pattern->interior_factor != 1.0)) {
+        dump_told(pattern, out);
     }
     dump_number(out, "  frequency ", pattern->frequency);
     dump_number(out, " phase ", pattern->phase);
@@ -77,7 +95,10 @@ static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBu
         return;
     }
     const PatternInfo *info = pattern_info((PatternType)pattern->type);
-    text_printf(out, "  %s", info->word);
+    if (pattern->magnet) {
+        text_printf(out, "  magnet %d", (int)pattern->magnet);
+    }
+    text_printf(out, pattern->magnet ? " %s" : "  %s", info->word);
     if (info->has_direction) {
         dump_vector(out, " ", pattern->vector);
     }

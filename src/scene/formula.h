@@ -1,14 +1,15 @@
-// Functions as patterns see them: steps that compute one number of a point.
+// Functions as patterns and shapes see them: steps that compute one number of a point.
 //
 // A formula is a list of steps in the order in which they are done, each known by its first step. A step takes numbers
-// from the top of a stack and puts one there. Plain data without padding, kept once where equal. How steps are done is
-// the renderer's.
+// from the top of a stack and puts one there. Plain data without padding, kept once where equal.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_FORMULA_H
 #define SCENE_FORMULA_H
 
 #include <stdint.h>
+
+#include "math/noise.h"
 
 typedef enum FormulaOp {
     FORMULA_NUMBER, // puts `number`
@@ -63,6 +64,7 @@ typedef enum FormulaOp {
     FORMULA_NOISE_CHOSEN, // of four, the last one being the generator
     FORMULA_PATTERN,      // the value of Scene.patterns[which] at three numbers
     FORMULA_PIGMENT,      // its colour's component `number`, see FormulaComponent
+    FORMULA_GIVEN,        // the surface of functions.inc that `which` says, of `number` arguments
     FORMULA_CALL,         // the formula that begins at `which`, of `number` arguments
     FORMULA_OPS
 } FormulaOp;
@@ -80,5 +82,30 @@ typedef struct FormulaStep {
     uint32_t next; // the step after it, or RECORD_NONE
     uint32_t unused;
 } FormulaStep;
+
+// What FORMULA_PATTERN or FORMULA_PIGMENT gives at a point.
+typedef double (*FormulaPainter)(const void *client, const FormulaStep *step, const double *point);
+
+// What formulas are done with.
+typedef struct FormulaSource {
+    const FormulaStep *steps;
+    const Noise *noise;       // NULL where no step asks for it
+    NoiseGenerator generator; // of FORMULA_NOISE
+    FormulaPainter painted;   // NULL: what is painted is no number
+    const void *client;
+} FormulaSource;
+
+// What formulas of shapes find their noise and their patterns by.
+typedef struct FormulaHost {
+    const Noise *noise;     // NULL where no step asks for it
+    FormulaPainter painted; // set by whoever can tell; NULL before
+    const void *client;
+} FormulaHost;
+
+// What FORMULA_PIGMENT makes of a colour: red, green, blue, filter and transmit.
+double formula_component(const FormulaStep *step, const double v[5]);
+
+// What the formula that begins with a step gives is put at `top`, where there is room for FORMULA_STACK_MOST numbers.
+void formula_run(const FormulaSource *source, uint32_t first, const double *slots, double *top);
 
 #endif

@@ -61,6 +61,9 @@ typedef struct Pattern {
     int32_t octaves;   // of turbulence, at least 1
     int32_t count;     // spiral1: its arms; mandel, julia: steps, at least 1
     int32_t is_solid;  // crackle: each cell has one value
+    int32_t magnet, power;      // mandel, julia: which of the magnets, 0 for none; else the power of z in each step
+    int32_t exterior, interior; // what is told of points that leave, and of those that stay
+    double exterior_factor, interior_factor;
     Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar; julia: its number;
                    // quilted: its two control values
     Vec3 form;     // crackle: what the distances to the nearest three points count

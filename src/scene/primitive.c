@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "scene/blob.h"
+#include "scene/isosurface.h"
 #include "scene/dump.h"
 #include "scene/part.h"
 #include "scene/polynomial.h"
@@ -310,28 +311,23 @@ static bool blob_holds(const Part *part, Vec3 p)
     return blob_field(part->list.items, p) > part->list.items[0];
 }
 
-static void blob_dump(const Part *part, TextBuffer *out)
-{
-    Blob blob = blob_of(part->list.items);
-    dump_number(out, "threshold ", blob.threshold);
-    for (uint32_t i = 0; i < blob.component_count; i++) {
-        const BlobComponent *component = &blob.components[i];
-        if (component->is_rod != 0.0) {
-            dump_number(out, " cylinder { 0, ", component->height);
-            dump_number(out, "*z, 1, ", component->strength);
-        } else {
-            dump_number(out, " sphere { 0, 1, ", component->strength);
-        }
-        text_append(out, " matrix ");
-        dump_numbers(out, &component->to_world[0][0], 12);
-        text_append(out, " }");
-    }
-}
-
 // Alone it is asked for the first few only.
 static uint32_t blob_part_intervals(const Part *part)
 {
     return part->node == NODE_NONE ? 4 : blob_interval_most(part->list.items);
+}
+
+// ---- isosurface
+
+static bool surface_holds(const Part *part, Vec3 p)
+{
+    return isosurface_holds(part->list.items, part->host, p);
+}
+
+// Alone it is asked for the first surface only.
+static uint32_t isosurface_intervals(const Part *part)
+{
+    return part->node == NODE_NONE ? 2 : ISOSURFACE_ROOTS_MOST + 1;
 }
 
 // ---- prism and polygon
@@ -620,7 +616,6 @@ static const PrimitiveClass classes[] = {
                    .interval_most = blob_part_intervals,
                    .support = box_support,
                    .holds = blob_holds,
-                   .dump = blob_dump,
                    .measure = box_measure},
     [PART_PRISM] = {.word = "prism",
                     .head = "prism { ",
@@ -680,6 +675,18 @@ static const PrimitiveClass classes[] = {
                              .support = superellipsoid_support,
                              .holds = superellipsoid_holds,
                              .dump = superellipsoid_dump},
+    [PART_ISOSURFACE] = {.word = "isosurface",
+                         .head = "isosurface {",
+                         .family = FAMILY_ISOSURFACE,
+                         .surface = PART_ISOSURFACE,
+                         .key_count = 3,
+                         .interval_count = 2,
+                         .interval_most = isosurface_intervals,
+                         .has_list = true,
+                         .is_sized = true,
+                         .support = box_support,
+                         .holds = surface_holds,
+                         .measure = box_measure},
     [PART_MESH] = {.word = "mesh",
                    .head = "",
                    .family = FAMILY_STRAIGHT,

@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 
 // Surfaces of different families coincide nowhere but along lines; polynomials are looked at among themselves only.
-typedef enum SurfaceFamily { FAMILY_ROUND, FAMILY_STRAIGHT, FAMILY_TUBE, FAMILY_POLYNOMIAL, FAMILY_BLOB } SurfaceFamily;
+typedef enum SurfaceFamily { FAMILY_ROUND, FAMILY_STRAIGHT, FAMILY_TUBE, FAMILY_POLYNOMIAL, FAMILY_BLOB, FAMILY_ISOSURFACE } SurfaceFamily;
 
 enum { FACE_CORNERS_MOST = 16 }; // of a flat face; a round one is the polygon in it
 

@@ -6,12 +6,13 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/primitive.h"
 
 _Static_assert(sizeof(Material) == 5 * sizeof(float) + sizeof(FinishIndex), "no padding in a material");
-_Static_assert(sizeof(Pattern) == 8 * sizeof(uint32_t) + 18 * sizeof(double), "no padding in a pattern");
+_Static_assert(sizeof(Pattern) == 12 * sizeof(uint32_t) + 20 * sizeof(double), "no padding in a pattern");
 _Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(PatternedPigment) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Texture) == sizeof(Pigment) + sizeof(Transform) + sizeof(Pattern) + 4 * sizeof(uint32_t),
@@ -84,11 +85,16 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->planes);
     ARRAY_FREE(&scene->parts);
     numbers_fini(&scene->numbers);
+    if (scene->formula_host) {
+        free((void *)scene->formula_host->noise);
+        free(scene->formula_host);
+    }
     for (size_t i = 0; i < scene->meshes.count; i++) {
         mesh_free(scene->meshes.items[i]);
     }
     ARRAY_FREE(&scene->meshes);
     ARRAY_FREE(&scene->face_materials);
+    ARRAY_FREE(&scene->blobs);
     ARRAY_FREE(&scene->nodes);
     ARRAY_FREE(&scene->composites);
     ARRAY_FREE(&scene->start_shapes);
@@ -259,7 +265,7 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->texture_entries) + LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) +
            LIST_BYTES(scene->compounds) + LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) +
            LIST_BYTES(scene->planes) + LIST_BYTES(scene->parts) + LIST_BYTES(scene->meshes) +
-           LIST_BYTES(scene->face_materials) + scene->mesh_bytes + LIST_BYTES(scene->nodes) +
+           LIST_BYTES(scene->face_materials) + LIST_BYTES(scene->blobs) + scene->mesh_bytes + LIST_BYTES(scene->nodes) +
            LIST_BYTES(scene->composites) + LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
            LIST_BYTES(scene->formula_steps) + LIST_BYTES(scene->warps) + LIST_BYTES(scene->picture_sources) +
            LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) + LIST_BYTES(scene->pictures) +

@@ -264,6 +264,8 @@ typedef struct Plane {
 //   prism           an outline in x and z, from y = fixed[0].y to fixed[1].y, one that is conic y times as large;
 //                   fixed[] are its bounds, the list is the outline
 //   polygon         an outline of straight pieces in x and y, at z = 0
+//   isosurface      where the function of the list is at its threshold (scene/isosurface.h), within the box from fixed[0]
+//                   to fixed[1]
 //   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
 typedef enum PartKind {
     PART_SPHERE,
@@ -281,6 +283,7 @@ typedef enum PartKind {
     PART_LATHE,
     PART_SOR,
     PART_SUPERELLIPSOID,
+    PART_ISOSURFACE,
     PART_MESH,
     PART_MESH_SOLID,
     PART_KINDS
@@ -325,6 +328,7 @@ typedef struct Part {
         struct { // of a kind that has a list of numbers (scene/primitive.h): its bounds or more of them, and the list
             Vec3 fixed[2];
             Numbers list; // the scene's, once the part is added: equal lists are at one place
+            const FormulaHost *host; // of an isosurface that asks for noise or patterns; else NULL
         };
         PartMesh mesh; // of a mesh
     };
@@ -483,10 +487,12 @@ typedef struct Scene {
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
     NumberPool numbers; // the lists of parts
+    FormulaHost *formula_host; // of isosurfaces that want one, its own; NULL: none does
     ARRAY(Mesh *) meshes; // owned; parts may share one
     size_t mesh_bytes;    // of all of them
     uint32_t plain_mesh_count; // of them, without textures of their own
     ARRAY(MaterialIndex) face_materials;
+    ARRAY(Numbers) blobs; // lists that textures are weighed by
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
     ARRAY(StartShape) start_shapes; // in the order of shapes
@@ -609,6 +615,8 @@ bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;
 bool scene_begin_composite(Scene *scene, uint8_t hidden, uint64_t source) RT_MUST_CHECK;
 bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, uint64_t source,
                     uint32_t *index) RT_MUST_CHECK;
+// What formulas of shapes ask; NULL when out of memory.
+const FormulaHost *scene_formula_host(Scene *scene) RT_MUST_CHECK;
 bool scene_add_leaf(Scene *scene, const Part *part) RT_MUST_CHECK;
 void scene_end_composite(Scene *scene);
 // Bytes of stack that a ray takes in the largest of them.

@@ -65,6 +65,12 @@ static const SchemaProperty pattern_modifiers[] = {
     {"warp", TYPE_BLOCK, ACTION_WARP, .doc = "`{ … }`: bends space, as transforms do in the order in which they stand"},
     {"mandel", TYPE_ACTION, ACTION_PATTERN, .doc = "the Mandelbrot set in x and y, after so many steps"},
     {"julia", TYPE_ACTION, ACTION_PATTERN, .doc = "the Julia set of a complex number, after so many steps"},
+    {"magnet", TYPE_ACTION, ACTION_FRACTAL, .doc = "1 or 2, then `mandel` or `julia`: of another step"},
+    {"exponent", TYPE_INTEGER, PATTERN_AT(power), .range = {RANGE_FAULT, false, 2.0, 33.0},
+     .doc = "of `mandel` and `julia`: the power of z in each step, 2 unless said"},
+    {"exterior", TYPE_ACTION, ACTION_FRACTAL,
+     .doc = "of these: 0 to 6, what is told of points that leave, and times what"},
+    {"interior", TYPE_ACTION, ACTION_FRACTAL, .doc = "of these: the same of points that stay"},
     {"quilted", TYPE_ACTION, ACTION_PATTERN, .doc = "a cushion in each unit cube"},
     {"control0", TYPE_NUMBER, PATTERN_AT(vector.x), .doc = "of `quilted`: how steep in the middle; 1 unless said"},
     {"control1", TYPE_NUMBER, PATTERN_AT(vector.y), .doc = "of `quilted`: how steep at the seams; 1 unless said"},
@@ -296,6 +302,47 @@ static const SchemaProperty poly_arguments[] = {
     {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
 };
 
+// ---- isosurface
+
+static const SchemaProperty isosurface_properties[] = {
+    {"function", TYPE_ACTION, ACTION_SHAPE_FUNCTION, .is_first = true,
+     .doc = "`{ … }` of x, y and z: at the threshold on the surface, below it inside"},
+    {"contained_by", TYPE_BLOCK, ACTION_CONTAINED_BY, .doc = "`{ sphere { … } }` or `{ box { … } }`"},
+    {"threshold", TYPE_NUMBER, AT(IsosurfaceDesc, threshold), .doc = "what the function is on the surface"},
+    {"accuracy", TYPE_NUMBER, AT(IsosurfaceDesc, accuracy), .range = POSITIVE,
+     .doc = "no piece of a ray is halved that is shorter"},
+    {"max_gradient", TYPE_NUMBER, AT(IsosurfaceDesc, max_gradient), .range = POSITIVE,
+     .doc = "how much the function changes over a length of 1 at most"},
+    {"evaluate", TYPE_ACTION, ACTION_EVALUATE,
+     .doc = "three numbers; `max_gradient` is then the first times the square of the second"},
+    {"max_trace", TYPE_INTEGER, AT(IsosurfaceDesc, roots_most), .range = {RANGE_FAULT, false, 1.0, INFINITY},
+     .doc = "how many surfaces a ray meets, at most 10"},
+    {"all_intersections", TYPE_ACTION, ACTION_EVALUATE, .doc = "the same as `max_trace 10`"},
+    {"open", TYPE_FLAG, AT(IsosurfaceDesc, is_open), .doc = "nothing is seen where the container cuts the inside"},
+};
+
+static const SchemaProperty contained_by_properties[] = {
+    {"sphere", TYPE_BLOCK, ACTION_CONTAINER, .doc = "`{ centre, radius }`"},
+    {"box", TYPE_BLOCK, ACTION_CONTAINER, .doc = "`{ corner, opposite corner }`"},
+};
+
+static const SchemaProperty container_ball_arguments[] = {
+    {"centre", TYPE_VECTOR, AT(ContainerDesc, low), .doc = "its middle"},
+    {"radius", TYPE_NUMBER, AT(ContainerDesc, radius), .range = POSITIVE, .doc = "its radius"},
+};
+
+static const SchemaProperty container_box_arguments[] = {
+    {"corner", TYPE_VECTOR, AT(ContainerDesc, low), .doc = "one corner"},
+    {"opposite corner", TYPE_VECTOR, AT(ContainerDesc, high), .doc = "the other"},
+};
+
+static const ContainerDesc container_defaults = {.low = {-1.0, -1.0, -1.0}, .high = {1.0, 1.0, 1.0}, .radius = 1.0};
+static const IsosurfaceDesc isosurface_defaults = {.part = OBJECT_PART,
+                                                   .container = {.low = {-1.0, -1.0, -1.0}, .high = {1.0, 1.0, 1.0}},
+                                                   .accuracy = 0.001,
+                                                   .max_gradient = 1.1,
+                                                   .roots_most = 1};
+
 // ---- blob
 
 static const SchemaProperty blob_properties[] = {
@@ -308,6 +355,13 @@ static const SchemaProperty blob_properties[] = {
     {"component", TYPE_ACTION, ACTION_BLOB_PART, .doc = "strength, radius, centre: an older form of `sphere`"},
     {"hierarchy", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: there is a tree of many components"},
     {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
+};
+
+static const SchemaProperty blob_part_properties[] = {
+    {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "of the component; where fields overlap each weighs as much as it is"},
+    {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "pigment of that texture"},
+    {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "normal of that texture"},
+    {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "finish of that texture"},
 };
 
 static const SchemaProperty blob_ball_arguments[] = {
@@ -324,7 +378,7 @@ static const SchemaProperty blob_rod_arguments[] = {
 };
 
 static const BlobDesc blob_defaults = {.part = OBJECT_PART, .threshold = 1.0};
-static const BlobPartDesc blob_part_defaults = {.transform = IDENTITY, .radius = 1.0, .strength = 1.0};
+static const BlobPartDesc blob_part_defaults = {.part = OBJECT_PART, .radius = 1.0, .strength = 1.0};
 
 static const PolynomialDesc quadric_defaults = {.part = OBJECT_PART, .order = 2};
 static const PolynomialDesc cubic_defaults = {.part = OBJECT_PART, .order = 3};
@@ -816,15 +870,40 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                         .size = sizeof(BlobPartDesc),
                         .defaults = &blob_part_defaults,
                         .arguments = LIST(blob_ball_arguments),
-                        .groups = {LIST(transforms)},
+                        .groups = {LIST(blob_part_properties), LIST(transforms)},
                         .doc = "A component of a blob."},
     [KIND_BLOB_ROD] = {.word = "cylinder",
                        .inside = "blob",
                        .size = sizeof(BlobPartDesc),
                        .defaults = &blob_part_defaults,
                        .arguments = LIST(blob_rod_arguments),
-                       .groups = {LIST(transforms)},
+                       .groups = {LIST(blob_part_properties), LIST(transforms)},
                        .doc = "A component of a blob."},
+    [KIND_ISOSURFACE] = {.word = "isosurface",
+                         .what = "an isosurface",
+                         .size = sizeof(IsosurfaceDesc),
+                         .defaults = &isosurface_defaults,
+                         .is_object = true,
+                         .is_declarable = true,
+                         .groups = {LIST(isosurface_properties), OBJECT_GROUPS},
+                         .doc = "Where a function is at a threshold, within a sphere or box; inside where it is below."},
+    [KIND_CONTAINED_BY] = {.word = "contained_by",
+                           .size = sizeof(ContainerDesc),
+                           .defaults = &container_defaults,
+                           .groups = {LIST(contained_by_properties)},
+                           .doc = "What an isosurface lies in."},
+    [KIND_CONTAINER_BALL] = {.word = "sphere",
+                             .inside = "contained_by",
+                             .size = sizeof(ContainerDesc),
+                             .defaults = &container_defaults,
+                             .arguments = LIST(container_ball_arguments),
+                             .doc = "A ball that contains an isosurface."},
+    [KIND_CONTAINER_BOX] = {.word = "box",
+                            .inside = "contained_by",
+                            .size = sizeof(ContainerDesc),
+                            .defaults = &container_defaults,
+                            .arguments = LIST(container_box_arguments),
+                            .doc = "A box that contains an isosurface."},
     [KIND_PRISM] = {.word = "prism",
                     .what = "a prism",
                     .size = sizeof(PrismDesc),
@@ -1137,7 +1216,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 };
 
 static const SchemaUnsupported unsupported[] = {
-    {"isosurface", true, NULL, NULL},
     {"julia_fractal", true, NULL, NULL},
     {"light_group", true, "use a `union`", "its lights and shapes"},
     {"media", true, NULL, "smoke, dust and fire, and their light"},

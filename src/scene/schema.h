@@ -30,6 +30,7 @@ typedef enum SchemaKind {
     KIND_QUARTIC,
     KIND_POLY,
     KIND_BLOB,
+    KIND_ISOSURFACE,
     KIND_PRISM,
     KIND_POLYGON,
     KIND_TEXT,
@@ -68,6 +69,9 @@ typedef enum SchemaKind {
     KIND_LOOKS_LIKE,
     KIND_BLOB_BALL,  // the braces of a blob's `sphere` and `cylinder`
     KIND_BLOB_ROD,
+    KIND_CONTAINED_BY, // the braces of `contained_by`, and of what stands in them
+    KIND_CONTAINER_BALL,
+    KIND_CONTAINER_BOX,
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
     KIND_WARP,
@@ -114,6 +118,11 @@ typedef enum SchemaAction {
     ACTION_MATERIAL,
     ACTION_REFLECTION,
     ACTION_BLOB_PART,
+    ACTION_SHAPE_FUNCTION,
+    ACTION_CONTAINED_BY,
+    ACTION_CONTAINER,
+    ACTION_EVALUATE,
+    ACTION_FRACTAL,
     ACTION_CLIP,
     ACTION_INVERSE,
     ACTION_ANGLE,

@@ -170,7 +170,7 @@ static void traversal_add(CsgTraversal *p, uint32_t index, double t, double leng
                           bool is_film)
 {
     const Solid *solid = traversal_solid(p, index);
-    bool has_surface = !(solid->flags & PART_UNSEEN) && !((solid->flags & PART_OPEN) && side != 0);
+    bool has_surface = !(solid->flags & PART_UNSEEN) && !solid_side_is_unseen(solid, side);
     p->first_surface = has_surface && t < p->first_surface ? t : p->first_surface;
     p->crossings[p->count++] = (Crossing){.t = t,
                                           .error = length,

@@ -281,7 +281,7 @@ size_t geometry_bytes(const Geometry *geometry)
 
 void geometry_set_abandon(Geometry *geometry, const Abandon *abandon)
 {
-    geometry->spheres.abandon = geometry->shapes.abandon = abandon;
+    geometry->spheres.abandon = geometry->shapes.abandon = geometry->shapes.isosurfaces.abandon = abandon;
 }
 
 const char *geometry_isa_name(const Geometry *geometry)

@@ -94,6 +94,7 @@ typedef struct ShapeCluster {
 
 struct ShapeTable {
     const Abandon *abandon; // NULL: no ray is left untraced; not owned
+    IsosurfaceWorld isosurfaces; // which solids refer to
     Solid *solids;
     Pages solid_pages; // which they are in; owned
     uint32_t solid_count;

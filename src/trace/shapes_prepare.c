@@ -44,7 +44,7 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
     };
     memcpy(solid.data, part->data, sizeof solid.data);
     solid.films = solid_classes[solid.kind].films;
-    solid.flags |= solid_classes[solid.kind].is_open ? PART_OPEN : 0;
+    solid.unseen = (uint8_t)(solid_classes[solid.kind].unseen | (part->flags & PART_OPEN ? ~1 : 0));
     solid.traits |= solid_classes[solid.kind].turns ? SOLID_TURNS : 0;
     if (part->kind == PART_PLANE) {
         solid.data[1].x = ldexp(part->data[1].x, -exponent);
@@ -518,6 +518,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         .solid_count = (uint32_t)scene->parts.count,
         .node_count = (uint32_t)scene->nodes.count,
         .csg_count = (uint32_t)scene->composites.count,
+        .isosurfaces = {.scale = ldexp(1.0, exponent)},
     };
     if (table->solid_count == 0) {
         return true;
@@ -528,6 +529,9 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         double down = ldexp(1.0, -exponent), up = ldexp(1.0, exponent);
         for (uint32_t i = 0; i < table->solid_count; i++) {
             table->solids[i] = solid_of(&scene->parts.items[i], exponent, down, up);
+            if (table->solids[i].kind == PART_ISOSURFACE) {
+                table->solids[i].isosurface.world = &table->isosurfaces;
+            }
             work.solids[i] = part_bounds(&scene->parts.items[i], exponent, down);
         }
         done = meshes_init(table, scene, threads, cancel);

@@ -263,7 +263,7 @@ RT_ALWAYS_INLINE bool end_offer(ShapeQuery *q, uint32_t index, const Ray *object
                                 double room, double passed, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
-    if (!(t > 0.0) || ((solid->flags & PART_OPEN) && side != 0)) {
+    if (!(t > 0.0) || solid_side_is_unseen(solid, side)) {
         return false;
     }
     if (!leaves && q->is_any && passed < 0.0 && end_is_met(q, t + 2.0 * room, first)) {

@@ -11,6 +11,7 @@
 #include "trace/box.h"
 #include "trace/cone.h"
 #include "trace/flat.h"
+#include "trace/isosurface.h"
 #include "trace/plane.h"
 #include "trace/polynomial.h"
 #include "trace/prism.h"
@@ -447,7 +448,7 @@ const SolidClass solid_classes[PART_KINDS] = {
                     .gradient = lathe_side_gradient,
                     .point = lathe_side_point,
                     .axes = box_axes,
-                    .is_open = true,
+                    .unseen = (uint8_t)~1,
                     .turns = true},
     [PART_SOR] = {.intervals = sor_side_intervals,
                   .normal = sor_side_gradient,
@@ -460,6 +461,13 @@ const SolidClass solid_classes[PART_KINDS] = {
                              .gradient = superellipsoid_side_gradient,
                              .point = superellipsoid_side_point,
                              .axes = cube_axes},
+    [PART_ISOSURFACE] = {.intervals = isosurface_intervals,
+                         .normal = isosurface_normal,
+                         .gradient = isosurface_normal,
+                         .point = isosurface_point,
+                         .axes = box_axes,
+                         .turns = true,
+                         .unseen = 1 << ISOSURFACE_UNSEEN},
     [PART_MESH] = {.axes = box_axes}, // all else is in trace/mesh.h
     [PART_MESH_SOLID] = {.axes = box_axes},
 };

@@ -15,6 +15,7 @@
 #include "scene/scene.h"
 #include "trace/ray_interval.h"
 #include "trace/sphere.h"
+#include "trace/trace.h"
 
 typedef enum SolidTrait {
     SOLID_FLAT = 1,   // it has no inside
@@ -25,6 +26,20 @@ typedef enum SolidTrait {
 } SolidTrait;
 
 typedef struct MeshTable MeshTable;
+
+// What isosurfaces of one geometry have in common.
+typedef struct IsosurfaceWorld {
+    double scale;           // of prepared lengths in those of the scene, a power of two
+    const Abandon *abandon; // NULL: no ray is left untraced; not owned
+} IsosurfaceWorld;
+
+// What an isosurface has in the place of fixed[] and a list.
+typedef struct SolidIsosurface {
+    Vec3 low, high;
+    const double *list;
+    const IsosurfaceWorld *world;
+    const FormulaHost *host; // as of a part
+} SolidIsosurface;
 
 // What a mesh has in the place of numbers.
 typedef struct SolidMesh {
@@ -56,6 +71,7 @@ typedef struct Solid {
     double extent, spread; // solid_measure; extent: 0 where no column has more than one entry
     Vec3 columns;          // lengths of the columns of to_object
     uint8_t entries[3];    // of each column: a bit for each that is not 0
+    uint8_t unseen;        // a bit for each side that bounds the inside and is not seen
     uint32_t interval_most; // of a line, at most; 0: it is flat
     Linear to_object, to_world; // what tests need stands before what surfaces need
     union {
@@ -65,6 +81,7 @@ typedef struct Solid {
             Numbers list;
         };
         SolidMesh mesh;
+        SolidIsosurface isosurface;
     };
 } Solid;
 
@@ -95,9 +112,8 @@ typedef struct SolidClass {
     Vec3 (*point)(const Solid *solid, Vec3 point, uint8_t side); // one near the side, put onto it
     // The axes of an ellipsoid around it, about *middle.
     void (*axes)(const Solid *solid, Vec3 axes[3], Vec3 *middle);
-    bool is_open;              // what closes it is not seen, as of one with PART_OPEN
     bool turns;                // its normals may point in as well as out: which way a ray crosses it tells
-    uint8_t films;             // as of a solid
+    uint8_t films, unseen;     // as of a solid
     int8_t across[SIDES_MOST]; // of each side: 1 + the axis that it lies across, 0 if it is not flat or across none
 } SolidClass;
 
@@ -107,6 +123,11 @@ extern const SolidClass solid_classes[PART_KINDS];
 static inline bool solid_is_film(const Solid *solid, uint8_t side)
 {
     return solid->films >> (side & 31) & 1;
+}
+
+static inline bool solid_side_is_unseen(const Solid *solid, uint8_t side)
+{
+    return solid->unseen >> (side & 31) & 1;
 }
 
 static inline bool solid_is_convex(const Solid *solid)

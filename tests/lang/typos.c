@@ -171,7 +171,8 @@ static void try_kinds(const InternTable *names, Tally *sums)
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaBlock *schema = schema_kind((SchemaKind)kind);
         if (kind == KIND_REFLECTION || kind == KIND_CLIPPED_BY || kind == KIND_BOUNDED_BY || kind == KIND_WARP ||
-            kind == KIND_IRID || kind == KIND_BLOB_BALL || kind == KIND_BLOB_ROD) {
+            kind == KIND_IRID || kind == KIND_BLOB_BALL || kind == KIND_BLOB_ROD || kind == KIND_CONTAINED_BY ||
+            kind == KIND_CONTAINER_BALL || kind == KIND_CONTAINER_BOX) {
             continue; // properties of other blocks
         }
         Place place = {schema->is_declarable ? "#declare A = " : "", "", " { }"};
@@ -202,6 +203,7 @@ static void try_properties(const InternTable *names, Tally *sums)
         [KIND_TORUS] = "2, 1",
         [KIND_QUADRIC] = "1, 0, 0, -1",
         [KIND_BLOB] = "threshold 0.5 sphere { 0, 1, 1 }",
+        [KIND_ISOSURFACE] = "function { x }",
         [KIND_CUBIC] = "<1, 0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,-1>",
         [KIND_QUARTIC] = "<1, 0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,-1>",
         [KIND_POLY] = "2, <1, 0, 0, 0, 1, 0, 0, 1, 0, -1>",
@@ -230,8 +232,8 @@ static void try_properties(const InternTable *names, Tally *sums)
         const char *around = arounds[kind] != NULL ? arounds[kind] : "";
         bool is_inner = around[0] != '\0';
         char before[256];
-        if (kind == KIND_TEXT) {
-            continue; // it wants a font, and has no properties but those of all objects
+        if (kind == KIND_TEXT || kind == KIND_CONTAINED_BY) {
+            continue; // one wants a font, and has no properties but those of all objects; the other stands too deep
         }
         snprintf(before, sizeof before, "%s%s %s { %s ", is_inner || schema->is_declarable ? "#declare A = " : "",
                  around, schema->word, arguments[kind] != NULL ? arguments[kind] : "");

@@ -49,6 +49,9 @@ LEFT_OUT = {
     "height_field smooth water_level bicubic_patch": "tests/povray/shape_height_field*.scn and shape_bicubic*.scn have"
     " them",
     "tiles": "tests/povray/texture_tiles*.scn have them",
+    "isosurface contained_by accuracy max_gradient max_trace all_intersections evaluate": "tests/povray/shape_isosurface*.scn"
+    " have them",
+    "magnet exterior": "tests/povray/pattern_fractal_*.scn have them",
     "perspective split_union": "on unless something else is said; tests/povray/*.scn have them",
     "camera light_source sphere global_settings declare": "in every scene",
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "eval/build/blocks.h"
+#include "scene/corners.h"
 
 // POV-Ray's tolerance. Measured.
 static const double field_tolerance = 1e-6;
@@ -30,9 +31,11 @@ static bool add_member(Block *block, bool is_rod, const BlobPartDesc *part, Span
     }
     member->earlier = blob->members;
     if (!blob_component(&member->component, is_rod, part->base, part->cap, part->radius, part->strength,
-                        &part->transform)) {
+                        &part->part.transform)) {
         return block_fault(block, DIAG_E0345, span, "the transforms leave a flat or infinite component");
     }
+    member->texture = part->part.texture;
+    blob->texture_count += member->texture != NULL;
     blob->members = member;
     blob->count++;
     return true;
@@ -77,6 +80,27 @@ bool blob_part_action(Block *block, const SchemaProperty *property, const AstNod
            add_member(block, kind == KIND_BLOB_ROD, &inner.blob_part, item->span);
 }
 
+// Textures are numbered in the order in which the list has its components, so that a dump that is read has the same.
+static bool number_textures(Block *block, const TextureDesc **textures)
+{
+    BlobDesc *blob = &block->record->blob;
+    Blob made = blob_of(blob->list.items);
+    const TextureDesc **sorted = arena_alloc_array(block->arena, (size_t)blob->texture_count + 1, sizeof *sorted);
+    if (!sorted) {
+        return eval_no_memory(block->ev, block->node->span);
+    }
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < made.component_count; i++) {
+        BlobComponent *component = (BlobComponent *)&made.components[i]; // still the list of this function's caller
+        if (component->texture > 0.0) {
+            sorted[count++] = textures[(size_t)component->texture - 1];
+            component->texture = count;
+        }
+    }
+    blob->textures = sorted;
+    return true;
+}
+
 bool blob_close(Block *block)
 {
     BlobDesc *blob = &block->record->blob;
@@ -88,11 +112,46 @@ bool blob_close(Block *block)
     if (!components || !list) {
         return eval_no_memory(block->ev, block->node->span);
     }
-    uint32_t at = blob->count;
+    const TextureDesc **textures = arena_alloc_array(block->arena, (size_t)blob->texture_count + 1, sizeof *textures);
+    if (!textures) {
+        return eval_no_memory(block->ev, block->node->span);
+    }
+    uint32_t at = blob->count, texture = 0;
     for (const BlobMember *member = blob->members; member; member = member->earlier) {
         components[--at] = member->component;
+        if (member->texture) {
+            textures[texture++] = member->texture;
+            components[at].texture = texture;
+        }
     }
     blob->list = blob_make(blob->threshold, components, blob->count, list);
+    return number_textures(block, textures);
+}
+
+bool blob_blend(Eval *ev, const BlobDesc *blob, const TextureDesc *own, const Transform *outer, TextureDesc *blend)
+{
+    const TextureDesc *plain = schema_kind(KIND_TEXTURE)->defaults;
+    Span span = blob->part.span;
+    PatternEntry *entries = arena_alloc_array(&ev->program, (size_t)blob->texture_count + 1, sizeof *entries);
+    PatternMap *map = arena_alloc(&ev->program, sizeof *map);
+    TextureDesc *first = arena_copy(&ev->program, own, sizeof *first);
+    Numbers list = blob->list;
+    if (!entries || !map || !first || !numbers_keep(&ev->scene->numbers, &list) ||
+        !ARRAY_PUSH(&ev->scene->blobs, list)) {
+        return eval_no_memory(ev, span);
+    }
+    texture_transform(first, outer);
+    for (uint32_t i = 0; i <= blob->texture_count; i++) {
+        entries[i] = (PatternEntry){.at = 1.0, .texture = i == 0 ? first : blob->textures[i - 1]};
+    }
+    *map = (PatternMap){entries, blob->texture_count + 1};
+    *blend = *own;
+    blend->below = NULL;
+    blend->part = plain->part;
+    blend->part.pattern.type = PATTERN_AVERAGE;
+    blend->part.pattern.count = PATTERN_FIELDS;
+    blend->part.pattern.image = (uint32_t)(ev->scene->blobs.count - 1);
+    blend->part.map = map;
     return true;
 }
 

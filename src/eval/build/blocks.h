@@ -165,6 +165,7 @@ bool block_read_items(Block *block, SchemaKind *is) RT_MUST_CHECK;
 // pattern.c
 bool pattern_solid_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool pattern_fractal_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // Reports a word that has no meaning beside the pattern that there is, or beside none.
@@ -198,6 +199,11 @@ bool warps_place(Eval *ev, Scene *scene, const WarpDesc *last, Span span, uint32
 // formula.c
 // Steps of a function of three numbers; what it is made of must be such as the renderer has.
 bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, uint32_t *first) RT_MUST_CHECK;
+// The same with patterns and pigments that are numbered as they are found; for this they are put behind `painted`, and a
+// scene gets records of them that are not used.
+typedef ARRAY(Painted *) PaintedList;
+bool formula_make(Eval *ev, Scene *scene, const Function *function, SchemaKind kind, Span span, uint32_t *first,
+                  PaintedList *painted) RT_MUST_CHECK;
 
 // material.c
 // A scene's record of a pigment that is moved by `outer`.
@@ -366,8 +372,25 @@ bool shape_is_flat(SchemaKind kind, const void *object);
 // blob.c
 bool blob_part_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool blob_close(Block *block) RT_MUST_CHECK;
+// The texture of a blob whose components have some, as it lies in the blob's space; `own` is that of the others, under
+// `outer`.
+bool blob_blend(Eval *ev, const BlobDesc *blob, const TextureDesc *own, const Transform *outer,
+                TextureDesc *blend) RT_MUST_CHECK;
 const char *blob_form(const void *object, Part *part);
 bool blob_holds(const void *object, Vec3 point, bool is_turned);
+
+// isosurface.c
+bool shape_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool contained_by_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool container_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool isosurface_evaluate_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool isosurface_close(Block *block) RT_MUST_CHECK;
+// The part's function as one of the scene that it is put into.
+bool isosurface_place(Eval *ev, const void *object, Part *part) RT_MUST_CHECK;
+const char *isosurface_form(const void *object, Part *part); // these as in ShapeClass
+bool isosurface_has(const void *object, Vec3 point, bool is_turned);
+bool isosurface_box(const void *object, OwnBox *own);
+
 // outline.c: prisms and polygons
 bool prism_body(Block *block) RT_MUST_CHECK;
 bool polygon_body(Block *block) RT_MUST_CHECK;

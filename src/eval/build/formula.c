@@ -7,6 +7,7 @@
 #include "eval/build/blocks.h"
 #include "eval/build/painted.h"
 #include "eval/values/function.h"
+#include "math/given_surface.h"
 
 // A function that has been made already.
 typedef struct Made {
@@ -21,7 +22,9 @@ typedef ARRAY(FormulaStep) Steps;
 typedef struct Maker {
     Eval *ev;
     Scene *scene;
+    SchemaKind kind; // of the block that the function stands in
     Span span;
+    PaintedList *painted; // NULL: patterns are the scene's
     ARRAY(Made) made;
 } Maker;
 
@@ -37,7 +40,7 @@ static bool make(Maker *maker, const Function *function, Made *made);
 
 static bool unsupported(Maker *maker, const char *what)
 {
-    block_unsupported(maker->ev, what, maker->span, KIND_PATTERN);
+    block_unsupported(maker->ev, what, maker->span, maker->kind);
     maker->ev->faulty = true;
     return false;
 }
@@ -156,6 +159,12 @@ static bool emit_painted(Making *body, const FunctionNode *node)
     if (pigment.pattern == RECORD_NONE) { // of one colour
         return unsupported(maker, "pigment");
     }
+    if (maker->painted) {
+        step.which = (uint32_t)maker->painted->count;
+        if (!ARRAY_PUSH(maker->painted, function->painted)) {
+            return eval_no_memory(maker->ev, maker->span);
+        }
+    }
     return emit(body, step, 3);
 }
 
@@ -207,14 +216,18 @@ static bool emit_given(Making *body, const FunctionNode *node)
     if (node->number == R || node->number == SPHERE) {
         return emit_distance(body, node->number == SPHERE);
     }
-    if (node->number != NOISE && !is_chosen) {
+    unsigned given = given_surface_arguments((unsigned)node->number);
+    if (node->number != NOISE && !is_chosen && given == 0) {
         return unsupported(body->maker, "internal");
     }
-    unsigned count = is_chosen ? 4 : 3;
+    unsigned count = given > 0 ? given : is_chosen ? 4 : 3;
     for (unsigned slot = 0; slot < count; slot++) {
         if (!emit(body, (FormulaStep){.op = FORMULA_SLOT, .which = slot}, 0)) {
             return false;
         }
+    }
+    if (given > 0) {
+        return emit(body, (FormulaStep){.op = FORMULA_GIVEN, .which = (uint32_t)node->number, .number = given}, given);
     }
     return emit(body, (FormulaStep){.op = is_chosen ? FORMULA_NOISE_CHOSEN : FORMULA_NOISE}, count);
 }
@@ -271,12 +284,12 @@ static bool make_body(Maker *maker, const Function *function, Made *made)
     made->steps = body.cost < FORMULA_STEPS_MOST ? body.cost : FORMULA_STEPS_MOST + 1;
     made->room = body.room;
     if (fine && made->steps > FORMULA_STEPS_MOST) {
-        return eval_fault(maker->ev, DIAG_E0606, maker->span, "a function of a pattern that takes more than %d steps",
+        return eval_fault(maker->ev, DIAG_E0606, maker->span, "a function that takes more than %d steps",
                           (int)FORMULA_STEPS_MOST);
     }
     if (fine && made->room > FORMULA_STACK_MOST) {
-        return eval_fault(maker->ev, DIAG_E0606, maker->span,
-                          "a function of a pattern that holds more than %d numbers at a time", (int)FORMULA_STACK_MOST);
+        return eval_fault(maker->ev, DIAG_E0606, maker->span, "a function that holds more than %d numbers at a time",
+                          (int)FORMULA_STACK_MOST);
     }
     return fine;
 }
@@ -304,9 +317,10 @@ static bool make_outer(Maker *maker, const Function *function, Made *made)
     return function->kind == FUNCTION_NUMBER ? make(maker, function, made) : make_body(maker, &outer, made);
 }
 
-bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, uint32_t *first)
+bool formula_make(Eval *ev, Scene *scene, const Function *function, SchemaKind kind, Span span, uint32_t *first,
+                  PaintedList *painted)
 {
-    Maker maker = {.ev = ev, .scene = scene, .span = span};
+    Maker maker = {.ev = ev, .scene = scene, .kind = kind, .span = span, .painted = painted};
     Made made = {.first = RECORD_NONE};
     unsigned height = function->body ? function->body->height : 1;
     if (!eval_deepen(ev, height, span)) {
@@ -317,4 +331,9 @@ bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, 
     ARRAY_FREE(&maker.made);
     *first = made.first;
     return fine;
+}
+
+bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, uint32_t *first)
+{
+    return formula_make(ev, scene, function, KIND_PATTERN, span, first, NULL);
 }

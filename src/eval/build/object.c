@@ -329,7 +329,8 @@ static void index_words(Eval *ev)
     for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaProperty *property;
         if (kind != KIND_CLIPPED_BY && kind != KIND_BOUNDED_BY && kind != KIND_LOOKS_LIKE && kind != KIND_REFLECTION &&
-            kind != KIND_BLOB_BALL && kind != KIND_BLOB_ROD) {
+            kind != KIND_BLOB_BALL && kind != KIND_BLOB_ROD && kind != KIND_CONTAINED_BY &&
+            kind != KIND_CONTAINER_BALL && kind != KIND_CONTAINER_BOX) {
             objects->kinds[word_symbol(ev, schema_kind((SchemaKind)kind)->word)] = (uint8_t)kind;
         }
         for (size_t i = 0; (property = schema_property((SchemaKind)kind, i)); i++) {

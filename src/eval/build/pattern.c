@@ -497,6 +497,12 @@ static void begin_pattern(Pattern *pattern, PatternType type)
     if (type == PATTERN_AGATE) {
         pattern->agate_turb = 1.0;
     }
+    bool is_fractal = type == PATTERN_MANDEL || type == PATTERN_JULIA;
+    pattern->magnet = 0;
+    pattern->power = is_fractal ? 2 : 0;
+    pattern->exterior = is_fractal;
+    pattern->interior = 0;
+    pattern->exterior_factor = pattern->interior_factor = is_fractal ? 1.0 : 0.0;
 }
 
 // The braces of `pigment_pattern`, which hold what those of a pigment do.
@@ -559,6 +565,57 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     bool has_entries = info->blocks != 0 && block->kind != KIND_PATTERN;
     return (type != PATTERN_PIGMENT || read_pigment_pattern(block, item)) &&
            (!has_entries || read_block_entries(block, type, item->span)) && read_amount(block);
+}
+
+// `exterior` and `interior`: what is told of a point, and times what.
+static bool read_told(Block *block, const SchemaProperty *property, Span span)
+{
+    Pattern *pattern = &block->record->patterned.pattern;
+    bool is_exterior = strcmp(property->word, "exterior") == 0;
+    SchemaProperty type = {property->word, TYPE_INTEGER, ACTION_NONE, .range = {RANGE_FAULT, false, 0.0, 6.0}};
+    SchemaProperty factor = {property->word, TYPE_NUMBER, ACTION_NONE, .at = 0};
+    type.at =
+        (uint16_t)(is_exterior ? offsetof(PatternPart, pattern.exterior) : offsetof(PatternPart, pattern.interior));
+    factor.at = (uint16_t)(is_exterior ? offsetof(PatternPart, pattern.exterior_factor)
+                                       : offsetof(PatternPart, pattern.interior_factor));
+    if (!block_value(block, &type, span)) {
+        return false;
+    }
+    if (!is_exterior && pattern->interior == 6) {
+        block_unsupported(block->ev, "interior 6", span, block->kind);
+        return false;
+    }
+    cursor_take_comma(&block->cursor);
+    return block_value(block, &factor, span);
+}
+
+// `magnet` 1 or 2 `mandel` or `julia`, or a word that says more of these.
+bool pattern_fractal_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    double number;
+    Span span = item->span;
+    if (strcmp(property->word, "magnet") != 0) {
+        return read_told(block, property, item->span);
+    }
+    if (!cursor_number(&block->cursor, &number, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    if (number != 1.0 && number != 2.0) {
+        return block_fault(block, DIAG_E0341, span, "`magnet` must be 1 or 2, not %g", number);
+    }
+    const AstNode *word = cursor_peek(&block->cursor);
+    bool is_mandel = cursor_at_word(&block->cursor, W_mandel);
+    if (!is_mandel && !cursor_at_word(&block->cursor, W_julia)) {
+        return block_fault(block, DIAG_E0253, block_here(block), "`magnet` needs `mandel` or `julia` here");
+    }
+    SchemaProperty pattern = {is_mandel ? "mandel" : "julia", TYPE_ACTION, ACTION_PATTERN, .at = 0};
+    cursor_skip(&block->cursor);
+    if (!pattern_action(block, &pattern, word)) {
+        return false;
+    }
+    block->record->patterned.pattern.magnet = (int)number;
+    return true;
 }
 
 // A function stands for its pattern.

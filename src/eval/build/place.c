@@ -104,6 +104,23 @@ static bool place_material(Eval *ev, const Placement *at, uint32_t inner_body, S
     return true;
 }
 
+// The same of an object that may be a blob with textures of its components.
+static bool place_material_of(Eval *ev, const void *object, const Part *part, const Placement *at, uint32_t inner_body,
+                              MaterialIndex *material)
+{
+    Span span = ((const ObjectPart *)object)->span;
+    TextureDesc blend;
+    Placement inner = *at;
+    if (part->kind == PART_BLOB && ((const BlobDesc *)object)->texture_count > 0) {
+        if (!blob_blend(ev, object, at->texture, &at->texture_outer, &blend)) {
+            return false;
+        }
+        inner.texture = &blend;
+        inner.texture_outer = at->outer;
+    }
+    return place_material(ev, &inner, inner_body, span, material);
+}
+
 // A group is hollow when it says so or its last member is; `hollow off` does not take back what that one says.
 // Measured.
 static bool is_hollow(SchemaKind kind, const void *object)
@@ -195,7 +212,7 @@ static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, cons
     Scene *scene = ev->scene;
     Span span = common->span;
     bool is_added;
-    if (!may_add(ev, span) || !place_material(ev, inner, 0, span, &material)) {
+    if (!may_add(ev, span) || !place_material_of(ev, common, part, inner, 0, &material)) {
         return false;
     }
     if (is_plain && part->kind == PART_PLANE) {
@@ -207,6 +224,9 @@ static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, cons
         alone.flags |= common->is_inverse ? PART_INVERSE : 0;
         if (primitive_class(part->kind)->is_mesh &&
             !place_face_materials(ev, (const MeshDesc *)common, inner, &alone)) {
+            return false;
+        }
+        if (part->kind == PART_ISOSURFACE && !isosurface_place(ev, common, &alone)) {
             return false;
         }
         is_added = scene_add_part(scene, &alone);
@@ -335,6 +355,9 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
         return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
                           COMPOSITE_PARTS_MOST);
     }
+    if (part.kind == PART_ISOSURFACE && !isosurface_place(ev, object, &part)) {
+        return false;
+    }
     if (!has_stack(ev->scene, composite, &part)) {
         return eval_fault(ev, DIAG_E0363, common->span,
                           "a line may cross the shapes that are cut here more than %d times",
@@ -344,7 +367,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     part.body = branch->body;
     part.flags |= (common->is_inverse != branch->is_inverse ? PART_INVERSE : 0) | (branch->is_unseen ? PART_UNSEEN : 0);
     if (!may_add(ev, common->span) ||
-        (!branch->is_unseen && !place_material(ev, around, branch->body, common->span, &part.material)) ||
+        (!branch->is_unseen && !place_material_of(ev, object, &part, around, branch->body, &part.material)) ||
         (!branch->is_unseen && primitive_class(part.kind)->is_mesh &&
          !place_face_materials(ev, object, around, &part))) {
         return false;

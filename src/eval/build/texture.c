@@ -279,7 +279,8 @@ static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena 
 const TextureDesc **texture_place(Block *block)
 {
     // The object of a `looks_like` may be missing: that is reported, and what follows it is read nevertheless.
-    bool is_object = schema_kind(block->is)->is_object || block->kind == KIND_LOOKS_LIKE;
+    bool is_component = block->kind == KIND_BLOB_BALL || block->kind == KIND_BLOB_ROD;
+    bool is_object = schema_kind(block->is)->is_object || block->kind == KIND_LOOKS_LIKE || is_component;
     return block->kind == KIND_MATERIAL ? &block->record->material.texture
            : is_object                  ? &block->record->part.texture
                                         : NULL;

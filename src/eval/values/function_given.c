@@ -1,13 +1,14 @@
 // The functions that POV-Ray has built in and gives to scenes by number, as functions.inc names them.
 //
-// Turns `function { internal(n) }` into a function of as many numbers as POV-Ray's takes: noise and distances; the
-// others, which are surfaces for isosurfaces, are kept as functions that are a fault where they are called. Owns
-// nothing.
+// Turns `function { internal(n) }` into a function of as many numbers as POV-Ray's takes: noise, distances, and
+// surfaces for isosurfaces (math/given_surface.h); others are kept as functions that are a fault where they are called.
+// Owns nothing.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
 #include "eval/values/function.h"
+#include "math/given_surface.h"
 
 enum { GIVEN_COUNT = 79 };
 
@@ -60,6 +61,13 @@ static double run_noise_generator(const FunctionNode *node, FunctionRun *run)
     return noise_at(run, noise_generator((int)number_to_int(run->slots[3]) & 3));
 }
 
+static double run_surface(const FunctionNode *node, FunctionRun *run)
+{
+    unsigned number = (unsigned)node->number;
+    const Noise *noise = given_surface_asks_noise(number) ? eval_noise(run->ev, run->span) : NULL;
+    return noise || !given_surface_asks_noise(number) ? given_surface(number, noise, run->slots) : 0.0;
+}
+
 typedef struct Given {
     FunctionNodeFn run; // NULL: not supported
     unsigned parameter_count;
@@ -77,7 +85,8 @@ bool function_given(Eval *ev, const AstNode *internal, Function *function)
         return eval_fault(ev, DIAG_E0261, internal->span, "`internal` needs a whole number from 0 to %d",
                           GIVEN_COUNT - 1);
     }
-    const Given *given = &table[(unsigned)number->number];
+    const Given surface = {run_surface, given_surface_arguments((unsigned)number->number)};
+    const Given *given = surface.parameter_count > 0 ? &surface : &table[(unsigned)number->number];
     FunctionNode *body = arena_alloc(&ev->program, sizeof *body);
     if (body == NULL) {
         return eval_no_memory(ev, internal->span);

@@ -1,131 +1,18 @@
-// Formulas, done step by step on a stack of numbers.
+// Formulas as patterns: what a function gives at a point, and the grey of a pigment.
 //
-// As in the evaluator nothing is checked: the functions are those of C, comparisons are exact, and a number that is not
-// finite is passed on. Steps that ask a pattern or a pigment go back to the textures. Owns nothing.
+// Steps that ask a pattern or a pigment go back to the textures. Owns nothing.
 //
 // SPDX-License-Identifier: MIT
 #include "render/surface/formula.h"
 
 #include <math.h>
 
-#include "base/number.h"
 #include "render/surface/texture.h"
 
-// Where a formula is done: its arguments are `slots`.
-typedef struct Place {
-    const NoiseSource *source;
-    const double *slots;
-} Place;
-
-static void run(const NoiseSource *source, uint32_t first, const double *slots, double *top);
-
-static double of_one(FormulaOp op, double a)
-{
-    switch (op) {
-    case FORMULA_NEG:
-        return -a;
-    case FORMULA_ABS:
-        return fabs(a);
-    case FORMULA_SIN:
-        return sin(a);
-    case FORMULA_COS:
-        return cos(a);
-    case FORMULA_TAN:
-        return tan(a);
-    case FORMULA_ASIN:
-        return asin(a);
-    case FORMULA_ACOS:
-        return acos(a);
-    case FORMULA_ATAN:
-        return atan(a);
-    case FORMULA_SINH:
-        return sinh(a);
-    case FORMULA_COSH:
-        return cosh(a);
-    case FORMULA_TANH:
-        return tanh(a);
-    case FORMULA_ASINH:
-        return asinh(a);
-    case FORMULA_ACOSH:
-        return acosh(a);
-    case FORMULA_ATANH:
-        return atanh(a);
-    case FORMULA_EXP:
-        return exp(a);
-    case FORMULA_LN:
-        return log(a);
-    case FORMULA_LOG:
-        return log10(a);
-    case FORMULA_SQRT:
-        return sqrt(a);
-    case FORMULA_FLOOR:
-        return floor(a);
-    case FORMULA_CEIL:
-        return ceil(a);
-    case FORMULA_INT:
-        return number_to_int(a);
-    case FORMULA_DEGREES:
-        return number_degrees(a);
-    default:
-        return number_radians(a);
-    }
-}
-
-static double of_two(FormulaOp op, double a, double b)
-{
-    switch (op) {
-    case FORMULA_ADD:
-        return a + b;
-    case FORMULA_SUB:
-        return a - b;
-    case FORMULA_MUL:
-        return a * b;
-    case FORMULA_DIV:
-        return a / b;
-    case FORMULA_EQ:
-        return a == b;
-    case FORMULA_NE:
-        return a != b;
-    case FORMULA_LT:
-        return a < b;
-    case FORMULA_LE:
-        return a <= b;
-    case FORMULA_GT:
-        return a > b;
-    case FORMULA_GE:
-        return a >= b;
-    case FORMULA_AND:
-        return a != 0.0 && b != 0.0;
-    case FORMULA_OR:
-        return a != 0.0 || b != 0.0;
-    case FORMULA_ATAN2:
-        return atan2(a, b);
-    case FORMULA_POW:
-        return pow(a, b);
-    case FORMULA_MOD:
-        return fmod(a, b);
-    case FORMULA_QUOTIENT:
-        return number_to_int(a / b);
-    case FORMULA_MIN:
-        return a <= b ? a : b; // where one is no number, the second, as in the evaluator
-    default:
-        return b > a ? b : a;
-    }
-}
-
-static double select_of(const double *a, bool has_four)
-{
-    return a[0] < 0.0 ? a[1] : !has_four || a[0] == 0.0 ? a[2] : a[3];
-}
-
-static double noise_of(const NoiseSource *source, const double *a, NoiseGenerator generator)
-{
-    return noise_value(source->noise, generator, vec3(a[0], a[1], a[2]));
-}
-
 // Where a point is not finite nothing lies there.
-static double painted_of(const NoiseSource *source, const FormulaStep *step, const double *a)
+static double painted_of(const void *client, const FormulaStep *step, const double *a)
 {
+    const NoiseSource *source = client;
     Vec3 p = vec3(a[0], a[1], a[2]);
     if (!vec3_is_finite(p)) {
         return (double)NAN;
@@ -136,61 +23,20 @@ static double painted_of(const NoiseSource *source, const FormulaStep *step, con
     Rgbft colour = texture_pigment(source->table, &(Pigment){.pattern = step->which}, p);
     const double v[5] = {(double)(float)colour.red, (double)(float)colour.green, (double)(float)colour.blue,
                          (double)(float)colour.filter, (double)(float)colour.transmit};
-    switch ((unsigned)step->number) {
-    case FORMULA_GRAY:
-        return rgb_luminance(rgb(v[0], v[1], v[2]));
-    case FORMULA_HEIGHT:
-        return (v[0] + v[1] / 255.0) * 0.996093; // the manual's, 2.2.2.5.4 "Pigment Functions"
-    default:
-        return v[(unsigned)step->number];
-    }
+    return formula_component(step, v);
 }
 
-// A step of more numbers than two, which stand before `top`; they become one, and so many are returned.
-static unsigned of_more(const Place *place, const FormulaStep *step, double *top)
+void formula_paint(FormulaHost *host, const NoiseSource *source)
 {
-    switch ((FormulaOp)step->op) {
-    case FORMULA_SELECT3:
-        top[-3] = select_of(top - 3, false);
-        return 3;
-    case FORMULA_SELECT4:
-        top[-4] = select_of(top - 4, true);
-        return 4;
-    case FORMULA_NOISE:
-        top[-3] = noise_of(place->source, top - 3, place->source->generator);
-        return 3;
-    case FORMULA_NOISE_CHOSEN:
-        top[-4] = noise_of(place->source, top - 4, noise_generator((int)number_to_int(top[-1]) & 3));
-        return 4;
-    case FORMULA_CALL: {
-        unsigned count = (unsigned)step->number;
-        run(place->source, step->which, top - count, top);
-        top[-(int)count] = top[0];
-        return count;
-    }
-    default:
-        top[-3] = painted_of(place->source, step, top - 3);
-        return 3;
-    }
+    host->painted = painted_of;
+    host->client = source;
 }
 
-// What the formula gives is put at `top`, above which there is room.
-static void run(const NoiseSource *source, uint32_t first, const double *slots, double *top)
+void formula_unpaint(FormulaHost *host, const NoiseSource *source)
 {
-    Place place = {source, slots};
-    for (uint32_t i = first; i != RECORD_NONE; i = source->steps[i].next) {
-        const FormulaStep *step = &source->steps[i];
-        FormulaOp op = (FormulaOp)step->op;
-        if (op <= FORMULA_SLOT) {
-            *top++ = op == FORMULA_NUMBER ? step->number : slots[step->which];
-        } else if (op <= FORMULA_MAX) {
-            top[-2] = of_two(op, top[-2], top[-1]);
-            top--;
-        } else if (op <= FORMULA_RADIANS) {
-            top[-1] = of_one(op, top[-1]);
-        } else {
-            top -= of_more(&place, step, top) - 1;
-        }
+    if (host->client == source) {
+        host->painted = NULL;
+        host->client = NULL;
     }
 }
 
@@ -198,7 +44,8 @@ static void run(const NoiseSource *source, uint32_t first, const double *slots, 
 double formula_value(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     double numbers[3 + FORMULA_STACK_MOST + 1] = {p.x, p.y, p.z};
-    run(source, pattern->image, numbers, numbers + 3);
+    FormulaSource formula = {source->steps, source->noise, source->generator, painted_of, source};
+    formula_run(&formula, pattern->image, numbers, numbers + 3);
     return numbers[3] > 1.0 ? fmod(numbers[3], 1.0) : numbers[3];
 }
 

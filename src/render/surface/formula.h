@@ -8,6 +8,11 @@
 
 // As PatternFunction.
 double formula_value(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+
+// Lets formulas of shapes ask the patterns of these textures, as long as these live, and no more.
+void formula_paint(FormulaHost *host, const NoiseSource *source);
+void formula_unpaint(FormulaHost *host, const NoiseSource *source);
+
 double formula_pigment(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 
 #endif

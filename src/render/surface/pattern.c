@@ -13,6 +13,7 @@
 #include "math/rest.h"
 #include "render/surface/formula.h"
 #include "render/surface/normal_special.h"
+#include "render/surface/pattern_fractal.h"
 #include "render/surface/pattern_noise.h"
 #include "render/surface/warp.h"
 
@@ -78,33 +79,6 @@ static double cylindrical(const Pattern *pattern, const NoiseSource *source, Vec
     return fmax(1.0 - sqrt(p.x * p.x + p.z * p.z), 0.0);
 }
 
-// The share of the steps z -> z^2 + c after which z is farther than 2 from 0, or 1.
-static double escape(double x, double y, double c_x, double c_y, int steps)
-{
-    for (int i = 0; i < steps; i++) {
-        double next = x * x - y * y + c_x;
-        y = 2.0 * x * y + c_y;
-        x = next;
-        if (x * x + y * y > 4.0) {
-            return (double)i / steps;
-        }
-    }
-    return 1.0;
-}
-
-static double mandel(const Pattern *pattern, const NoiseSource *source, Vec3 p)
-{
-    (void)source;
-    return escape(p.x, p.y, p.x, p.y, pattern->count);
-}
-
-static double julia(const Pattern *pattern, const NoiseSource *source, Vec3 p)
-{
-    (void)source;
-    return escape(p.x, p.y, pattern->vector.x, pattern->vector.y, pattern->count);
-}
-
-// How far a normal is turned there.
 static double quilted(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     Vec3 turn = normal_special(pattern, source, p);
@@ -200,8 +174,8 @@ static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_SPIRAL2] = pattern_spiral2,
     [PATTERN_FUNCTION] = formula_value,
     [PATTERN_PIGMENT] = formula_pigment,
-    [PATTERN_MANDEL] = mandel,
-    [PATTERN_JULIA] = julia,
+    [PATTERN_MANDEL] = pattern_fractal,
+    [PATTERN_JULIA] = pattern_fractal,
     [PATTERN_QUILTED] = quilted,
 };
 
@@ -323,7 +297,8 @@ static const PatternAbreast many_values[PATTERN_COUNT] = {
 
 bool pattern_goes_abreast(const Pattern *pattern)
 {
-    return many_values[pattern->type];
+    bool is_escape = pattern->type == PATTERN_MANDEL || pattern->type == PATTERN_JULIA;
+    return many_values[pattern->type] && (!is_escape || pattern_is_plain_fractal(pattern));
 }
 
 void pattern_values_moved(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *moved,

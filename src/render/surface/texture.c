@@ -9,8 +9,12 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "math/extreme.h"
+#include "math/given_surface.h"
+#include "render/surface/formula.h"
+#include "scene/blob.h"
 #include "scene/corners.h"
 
 static Transform way_back(const Transform *to_world)
@@ -64,7 +68,8 @@ static bool asks_for_noise(const Scene *scene)
     }
     for (size_t i = 0; !found && i < scene->formula_steps.count; i++) {
         uint32_t op = scene->formula_steps.items[i].op;
-        found = op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN;
+        found = op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN ||
+                (op == FORMULA_GIVEN && given_surface_asks_noise(scene->formula_steps.items[i].which));
     }
     for (size_t i = 0; !found && i < scene->fogs.count; i++) {
         found = scene->fogs.items[i].is_turbulent;
@@ -169,6 +174,9 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     for (size_t i = 0; i < scene->normals.count; i++) {
         table->normal_to_pattern[i] = way_back(&scene->normals.items[i].to_world);
     }
+    if (scene->formula_host) {
+        formula_paint(scene->formula_host, &table->source);
+    }
     return true;
 }
 
@@ -182,6 +190,9 @@ size_t texture_table_bytes(const TextureTable *table)
 
 void texture_table_fini(TextureTable *table)
 {
+    if (table->scene && table->scene->formula_host) {
+        formula_unpaint(table->scene->formula_host, &table->source);
+    }
     free(table->noise);
     free(table->waves);
     free(table->to_pattern);
@@ -324,6 +335,37 @@ static void walk_corners(Walk *walk, uint32_t first, const TexturePlace *place, 
     }
 }
 
+static double field_size(const BlobComponent *component, Vec3 point)
+{
+    Vec3 own;
+    double inner = 1.0 - blob_distance2(component, point, &own);
+    return inner > 0.0 ? fabs(component->strength) * inner * inner : 0.0;
+}
+
+// Textures of a blob's components, each weighed by its field; what is left out is as at corners. Measured.
+static void walk_fields(Walk *walk, const Texture *texture, const TexturePlace *here, double part, Rgb above)
+{
+    const Scene *scene = walk->table->scene;
+    const TextureEntry *entries = scene->texture_entries.items;
+    Blob blob = blob_of(scene->blobs.items[texture->pattern.image].items);
+    double shares[blob.component_count + 1], sum = 0.0; // there are no more textures than that
+    memset(shares, 0, (blob.component_count + 1) * sizeof *shares);
+    for (uint32_t i = 0; i < blob.component_count; i++) {
+        sum += field_size(&blob.components[i], here->point);
+    }
+    for (uint32_t i = 0; i < blob.component_count && sum > 0.0; i++) {
+        double share = field_size(&blob.components[i], here->point) / sum;
+        shares[(size_t)blob.components[i].texture] += share >= walk->cut ? share : 0.0;
+    }
+    shares[0] = sum > 0.0 ? shares[0] : 1.0;
+    uint32_t at = texture->entries;
+    for (uint32_t i = 0; at != RECORD_NONE; i++, at = entries[at].next) {
+        if (shares[i] > 0.0) {
+            walk_layers(walk, entries[at].texture, i == 0 ? here->outer : here, part * shares[i], above);
+        }
+    }
+}
+
 static void walk_average(Walk *walk, uint32_t first, const TexturePlace *place, double part, Rgb above)
 {
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
@@ -344,6 +386,10 @@ static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, 
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
     Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer->point);
     TexturePlace here = {pattern_moved(&texture->pattern, &walk->table->source, point), index, outer};
+    if (texture_is_of_fields(texture)) {
+        walk_fields(walk, texture, &here, part, above);
+        return;
+    }
     if (texture->pattern.type == PATTERN_AVERAGE) {
         (texture_is_of_corners(texture) ? walk_corners : walk_average)(walk, texture->entries, &here, part, above);
         return;

@@ -1,0 +1,221 @@
+// A row a function.
+//
+// SPDX-License-Identifier: MIT
+#include "math/given_surface.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "base/number.h"
+
+typedef double (*Surface)(const Noise *noise, const double *a);
+
+// Most are a polynomial times a field strength, turned round and cut at 10.
+static double field(double strength, double value)
+{
+    double v = -strength * value;
+    return v > 10.0 ? 10.0 : v < -10.0 ? -10.0 : v;
+}
+
+static double beyond(double x, double half)
+{
+    return fabs(x) > half ? fabs(x) - half : 0.0;
+}
+
+static double rounded_box(const Noise *noise, const double *a)
+{
+    double r = a[3], x = beyond(a[0], a[4] - r), y = beyond(a[1], a[5] - r), z = beyond(a[2], a[6] - r);
+    (void)noise;
+    return sqrt(x * x + y * y + z * z) - r - 1e-6;
+}
+
+static double torus(const Noise *noise, const double *a)
+{
+    double from = sqrt(a[0] * a[0] + a[2] * a[2]) - a[3];
+    (void)noise;
+    return sqrt(from * from + a[1] * a[1]) - a[4];
+}
+
+static double torus2(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2], major2 = a[4] * a[4], minor2 = a[5] * a[5];
+    double sum = x2 + y2 + z2 + major2 - minor2;
+    (void)noise;
+    return field(a[3], sum * sum - 4.0 * major2 * (x2 + z2));
+}
+
+static double ellipsoid(const Noise *noise, const double *a)
+{
+    double x = a[0] * a[3], y = a[1] * a[4], z = a[2] * a[5];
+    (void)noise;
+    return sqrt(x * x + y * y + z * z);
+}
+
+static double superellipsoid(const Noise *noise, const double *a)
+{
+    double across = pow(pow(fabs(a[0]), 2.0 / a[3]) + pow(fabs(a[1]), 2.0 / a[3]), a[3] / a[4]);
+    (void)noise;
+    return 1.0 - pow(across + pow(fabs(a[2]), 2.0 / a[4]), a[4] * 0.5);
+}
+
+static double paraboloid(const Noise *noise, const double *a)
+{
+    (void)noise;
+    return field(a[3], a[0] * a[0] - a[1] + a[2] * a[2]);
+}
+
+static double heart(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2], z3 = z2 * a[2], in = 2.0 * x2 + y2 + z2 - 1.0;
+    (void)noise;
+    return field(a[3], in * in * in - 0.1 * x2 * z3 - y2 * z3);
+}
+
+static double steiners_roman(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], x2 * z2 + y2 * z2 + x2 * y2 + a[0] * a[1] * a[2]);
+}
+
+static double quartic_paraboloid(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], x2 * x2 + z2 * z2 - a[1]);
+}
+
+static double quartic_saddle(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], x2 * x2 - z2 * z2 - a[1]);
+}
+
+static double cubic_saddle(const Noise *noise, const double *a)
+{
+    (void)noise;
+    return field(a[3], a[0] * a[0] * a[0] - a[1] * a[1] * a[1] - a[2]);
+}
+
+static double crossed_trough(const Noise *noise, const double *a)
+{
+    (void)noise;
+    return field(-a[3], a[0] * a[0] * a[2] * a[2] - a[1]);
+}
+
+static double cushion(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z = a[2], z2 = z * z, in = x2 - z;
+    (void)noise;
+    return field(-a[3], z2 * x2 - z2 * z2 - 2.0 * z * x2 + 2.0 * z2 * z + x2 - z2 - in * in - y2 * y2 - 2.0 * x2 * y2 -
+                            y2 * z2 + 2.0 * y2 * z + y2);
+}
+
+static double mitre(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], 4.0 * x2 * (x2 + y2 + z2) - y2 * (1.0 - y2 - z2));
+}
+
+static double devils_curve(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], x2 * x2 + 2.0 * x2 * z2 - 0.36 * x2 - y2 * y2 + 0.25 * y2 + z2 * z2);
+}
+
+static double kummer_surface(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], x2 * x2 + y2 * y2 + z2 * z2 - x2 - y2 - z2 - x2 * y2 - x2 * z2 - y2 * z2 + 1.0);
+}
+
+// From -length / 2 to length / 2, again and again.
+static double nearest(double x, double length)
+{
+    return x - length * floor(x / length + 0.5);
+}
+
+static double hexagon(double x, double y)
+{
+    const double root3 = 0x1.bb67ae8584caap+0;
+    x = fabs(nearest(x, root3));
+    double slope = x / 2.0 + root3 / 2.0 * fabs(nearest(y, 3.0));
+    return x > slope ? x : slope;
+}
+
+// The distance from the nearest middle of six-sided tiles, as they have it.
+static double hexagons(const Noise *noise, const double *a)
+{
+    const double root3 = 0x1.bb67ae8584caap+0;
+    double one = hexagon(a[0], a[1]), other = hexagon(a[0] - root3 / 2.0, a[1] - 1.5);
+    (void)noise;
+    return one < other ? one : other;
+}
+
+// F. K. Musgrave's ridged multifractal terrain, in "Texturing and Modeling: A Procedural Approach", with H, lacunarity,
+// octaves, offset, gain and a noise generator.
+static double ridged_multifractal(const Noise *noise, const double *a)
+{
+    NoiseGenerator generator = noise_generator((int)number_to_int(a[8]) & 3);
+    double x = a[0], y = a[1], z = a[2], frequency = 1.0, sum = 0.0, weight = 1.0;
+    int octaves = (int)(a[5] < 1.0 ? 1.0 : a[5] > 64.0 ? 64.0 : a[5]); // the last are below any use
+    for (int i = 0; i < octaves; i++) {
+        double signal = a[6] - fabs(2.0 * noise_value(noise, generator, vec3(x, y, z)) - 1.0);
+        signal *= signal * weight;
+        sum += i == 0 ? signal : signal * pow(frequency, -a[3]);
+        weight = signal * a[7];
+        weight = weight > 1.0 ? 1.0 : weight < 0.0 ? 0.0 : weight;
+        x *= a[4];
+        y *= a[4];
+        z *= a[4];
+        frequency *= a[4];
+    }
+    return sum;
+}
+
+enum { GIVEN_SURFACES = 79 };
+
+typedef struct Row {
+    Surface surface;
+    unsigned arguments;
+} Row;
+
+static const Row rows[GIVEN_SURFACES] = {
+    [11] = {crossed_trough, 4},
+    [12] = {cubic_saddle, 4},
+    [13] = {cushion, 4},
+    [14] = {devils_curve, 4},
+    [17] = {ellipsoid, 6},
+    [23] = {heart, 4},
+    [27] = {hexagons, 4},
+    [36] = {kummer_surface, 4},
+    [41] = {mitre, 4},
+    [45] = {paraboloid, 4},
+    [54] = {quartic_paraboloid, 4},
+    [55] = {quartic_saddle, 4},
+    [59] = {ridged_multifractal, 9},
+    [60] = {rounded_box, 7},
+    [65] = {steiners_roman, 4},
+    [68] = {superellipsoid, 5},
+    [70] = {torus, 5},
+    [71] = {torus2, 6},
+};
+
+unsigned given_surface_arguments(unsigned number)
+{
+    return number < GIVEN_SURFACES ? rows[number].arguments : 0;
+}
+
+bool given_surface_asks_noise(unsigned number)
+{
+    return number < GIVEN_SURFACES && rows[number].surface == ridged_multifractal;
+}
+
+double given_surface(unsigned number, const Noise *noise, const double *a)
+{
+    return rows[number].surface(noise, a);
+}
