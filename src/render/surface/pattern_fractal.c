@@ -80,10 +80,11 @@ static Orbit orbit_of(const Pattern *pattern, Vec3 p)
 {
     bool is_mandel = pattern->type == PATTERN_MANDEL;
     Complex z = {p.x, p.y}, c = is_mandel ? z : (Complex){pattern->vector.x, pattern->vector.y};
-    if (is_mandel && pattern->magnet) {
+    bool is_from_zero = is_mandel && pattern->magnet; // which does not count as near to 0
+    if (is_from_zero) {
         z = (Complex){0.0, 0.0};
     }
-    Orbit orbit = {.least = square_of(z)};
+    Orbit orbit = {.least = is_from_zero ? (double)INFINITY : square_of(z)};
     for (; orbit.steps < pattern->count; orbit.steps++) {
         z = pattern->magnet ? magnet_step(z, c, pattern->magnet) : power_step(z, c, pattern->power);
         orbit.least = fmin(orbit.least, square_of(z));
