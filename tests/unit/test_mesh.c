@@ -8,9 +8,11 @@
 // SPDX-License-Identifier: MIT
 #include "trace/mesh.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/mesh_field.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
@@ -212,6 +214,43 @@ static void check_points(void)
     mesh_free(mesh);
 }
 
+static double share(Random *random)
+{
+    return (double)random_below(random, 1000001) / 1e6;
+}
+
+// Above a field of heights a line straight up crosses no face, below it one.
+static void check_field(uint64_t seed)
+{
+    Random random = {seed};
+    Mesh *mesh = mesh_field_new(2 + random_below(&random, 30), 2 + random_below(&random, 30));
+    if (!mesh) {
+        abort();
+    }
+    MeshField *field = mesh->field;
+    for (uint32_t i = 0; i < field->columns * field->rows; i++) {
+        field->heights[i] = (uint16_t)random_below(&random, FIELD_HEIGHTS);
+    }
+    mesh_field_build(mesh);
+    uint64_t wrong = 0;
+    for (int i = 0; i < 3000; i++) {
+        Vec3 point = vec3(1.2 * share(&random) - 0.1, 1.2 * share(&random) - 0.1, 1.2 * share(&random) - 0.1);
+        MeshRay ray = mesh_ray_make(&(Ray){point, vec3(0.0, 1.0, 0.0)});
+        bool is_below = false;
+        for (uint32_t face = 0; face < mesh->face_count; face++) {
+            MeshPoint at;
+            is_below = is_below != (mesh_ray_crosses(&ray, mesh, face, &at) && at.t > 0.0);
+        }
+        double apart = mesh_field_is_over(point) ? fabs(mesh_field_height(field, point) - point.y) : 1.0;
+        wrong += mesh_holds(mesh, point) != is_below && apart > 1e-4; // columns are of single precision in the mesh
+    }
+    tap_ok(wrong == 0, "field of %u x %u heights: inside is below its faces", field->columns, field->rows);
+    field->water = 2.0;
+    tap_ok(mesh_holds(mesh, vec3(0.5, 1.9, 0.5)) && !mesh_holds(mesh, vec3(0.5, 2.1, 0.5)), "or below its water");
+    tap_ok(!mesh_holds(mesh, vec3(1.0, 0.0, 0.5)) && mesh_holds(mesh, vec3(0.0, -9.0, 0.0)), "and not beside it");
+    mesh_free(mesh);
+}
+
 int main(int argc, char **argv)
 {
     uint64_t rays = argc > 1 ? strtoull(argv[1], NULL, 10) : 20000, seed = random_seed(argc > 2 ? argv[2] : NULL);
@@ -222,6 +261,8 @@ int main(int argc, char **argv)
     Transform far =
         transform_compose(transform_scale(vec3(1e-3, 1e-3, 1e-3)), transform_translate(vec3(5.0, -3.0, 2.0)));
     check_points();
+    check_field(seed + 7);
+    check_field(seed + 8);
     check_closed("globe", globe(&random, 0.0, 1.0), none, rays, seed + 1);
     check_closed("rough globe", globe(&random, 0.3, 1.0), none, rays, seed + 2);
     check_closed("flat globe", globe(&random, 0.1, 1e-3), turned, rays, seed + 3);
