@@ -80,6 +80,9 @@ static void close_curve(OutlinePen *pen, bool is_control_bound)
     uint32_t pieces = outline_piece_count(&drawn);
     OutlinePoint low, high;
     (is_control_bound ? outline_bounds : outline_extent)(&drawn, &low, &high);
+    for (uint32_t i = 0; i < pieces; i++) { // an extent has the starts of pieces only, as closed curves need
+        low.u = fmin(low.u, piece_end(&drawn, i, true).u);
+    }
     double inner = fmax(low.u, 0.0);
     pen->items[OUTLINE_MIRRORED] = low.u < 0.0 ? 1.0 : 0.0;
     for (uint32_t i = 0; i < pieces; i++) {
