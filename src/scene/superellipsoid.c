@@ -12,7 +12,8 @@ static double join(double a, double b, double p, double *by_a, double *by_b)
         return most;
     }
     double ratio = least / most, power = pow(ratio, p), sum = 1.0 + power;
-    double by_most = pow(sum, 1.0 / p - 1.0), by_least = ratio > 0.0 ? by_most * (power / ratio) : by_most * pow(0.0, p - 1.0);
+    double by_most = pow(sum, 1.0 / p - 1.0),
+           by_least = ratio > 0.0 ? by_most * (power / ratio) : by_most * pow(0.0, p - 1.0);
     *by_a = a > b ? by_most : by_least;
     *by_b = a > b ? by_least : by_most;
     return most * (by_most * sum);

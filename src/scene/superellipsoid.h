@@ -2,8 +2,8 @@
 //
 //     N = (M^q + |z|^q)^(1/q), M = (|x|^p + |y|^p)^(1/p), p = 2/e, q = 2/n,
 //
-// which is as much larger as a point is farther from 0. It is taken in parts of the greatest coordinate, so that no power
-// is out of range.
+// which is as much larger as a point is farther from 0. It is taken in parts of the greatest coordinate, so that no
+// power is out of range.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_SUPERELLIPSOID_H

@@ -1,7 +1,7 @@
 // Crossings of a line and a surface that closes a space: in any order, then in that of the line, then intervals.
 //
-// There is an even number of them, so that the line is outside before the first and behind the last. A ray that starts on
-// the surface leaves out its own crossing, by their number.
+// There is an even number of them, so that the line is outside before the first and behind the last. A ray that starts
+// on the surface leaves out its own crossing, by their number.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_CROSSINGS_H

@@ -1,13 +1,13 @@
 // A line is seen by its distance from y and its height: a hyperbola about its point nearest to y, of which both halves
-// are where A = dy w and where A = -dy w. There w² = u² - L, L being the square of the line's least distance from y, and
-// A is dy times how far a point of height v is along the line's shadow on y = 0. Along a piece of the curve
+// are where A = dy w and where A = -dy w. There w² = u² - L, L being the square of the line's least distance from y,
+// and A is dy times how far a point of height v is along the line's shadow on y = 0. Along a piece of the curve
 //
 //     q = dy² (u² - L) - A²
 //
 // is a polynomial whose sign says whether the piece is between the halves or beyond them. Of each part of a piece the
 // Bernstein coefficients of q are made of those of u and v, so that their errors are those of a curve that is off by a
-// few u of its size: where their signs change once there is one root, where they do not, there is none. Where the line is
-// nearly level both halves are nearly one, and q has two roots that no halving takes apart; there A and dy w are
+// few u of its size: where their signs change once there is one root, where they do not, there is none. Where the line
+// is nearly level both halves are nearly one, and q has two roots that no halving takes apart; there A and dy w are
 // compared, of which one grows more than the other all along the part. Else the part is halved, to where all of q is
 // below its own rounding. Whether a point is between the halves is known from its own q alone, so that two pieces that
 // meet there say the same, and the number of crossings of closed curves is even whatever rounding does.
@@ -30,20 +30,20 @@ static const double MARGIN = 0x1p-40;
 
 typedef enum ArcKind { ARC_LINE, ARC_CUBIC, ARC_SQUARE } ArcKind;
 
-// A piece of the curve, or a part of one, by Bernstein coefficients. Of ARC_SQUARE u is the radius squared, of degree 3,
-// and v is straight.
+// A piece of the curve, or a part of one, by Bernstein coefficients. Of ARC_SQUARE u is the radius squared, of degree
+// 3, and v is straight.
 typedef struct Arc {
     ArcKind kind;
     double u[4], v[4];
 } Arc;
 
 typedef struct Turn {
-    double t_base;         // of the point that the line is seen from
-    double y, dy, across;  // its height; the direction's part along y, and the length of what is left
-    double along;          // how far it is along the line's shadow from that shadow's point nearest to 0
-    double least2;         // L
-    double size, pad;      // of the shape; room
-    uint8_t side;          // of the piece that is asked
+    double t_base;        // of the point that the line is seen from
+    double y, dy, across; // its height; the direction's part along y, and the length of what is left
+    double along;         // how far it is along the line's shadow from that shadow's point nearest to 0
+    double least2;        // L
+    double size, pad;     // of the shape; room
+    uint8_t side;         // of the piece that is asked
     Crossing *crossings;
     uint32_t count;
 } Turn;
@@ -89,43 +89,34 @@ static bool turn_passes(const Turn *turn, double inner, double outer, double low
 
 // ---- a part of a piece
 
-static void arc_at(const Arc *arc, double s, double *square, double *v)
+// The value of a cubic, and how it changes.
+static inline double cubic_at(const double f[4], double s, double *slope)
 {
-    double r = 1.0 - s;
-    const double *f = arc->u, *g = arc->v;
-    double u;
-    if (arc->kind == ARC_LINE) {
-        u = f[0] * r + f[1] * s;
-    } else {
-        u = ((f[0] * r + 3.0 * s * f[1]) * r + 3.0 * s * s * f[2]) * r + s * s * s * f[3];
-    }
-    *v = arc->kind == ARC_CUBIC ? ((g[0] * r + 3.0 * s * g[1]) * r + 3.0 * s * s * g[2]) * r + s * s * s * g[3]
-                                : g[0] * r + g[1] * s;
-    *square = arc->kind == ARC_SQUARE ? u : u * u;
+    double a = f[0] + s * (f[1] - f[0]), b = f[1] + s * (f[2] - f[1]), c = f[2] + s * (f[3] - f[2]);
+    double first = a + s * (b - a), last = b + s * (c - b);
+    *slope = 3.0 * (last - first);
+    return first + s * (last - first);
 }
 
-static double cubic_slope(const double f[4], double s)
+static inline double line_at(const double f[2], double s, double *slope)
 {
-    double r = 1.0 - s;
-    return 3.0 * (((f[1] - f[0]) * r + 2.0 * s * (f[2] - f[1])) * r + s * s * (f[3] - f[2]));
+    *slope = f[1] - f[0];
+    return f[0] + s * *slope;
 }
 
-// How half of the square, and v, change.
-static void arc_slopes(const Arc *arc, double s, double square, double *half, double *v)
+// A point of a part: the square of its radius, its height, and how half of the square and the height change.
+typedef struct ArcPoint {
+    double square, v, rise, climb;
+} ArcPoint;
+
+static ArcPoint arc_at(const Arc *arc, double s)
 {
-    double u = arc->kind == ARC_LINE ? arc->u[1] - arc->u[0] : cubic_slope(arc->u, s);
-    *v = arc->kind == ARC_CUBIC ? cubic_slope(arc->v, s) : arc->v[1] - arc->v[0];
-    if (arc->kind == ARC_SQUARE) {
-        *half = 0.5 * u;
-        return;
-    }
-    double r = 1.0 - s;
-    const double *f = arc->u;
-    double own = arc->kind == ARC_LINE
-                     ? f[0] * r + f[1] * s
-                     : ((f[0] * r + 3.0 * s * f[1]) * r + 3.0 * s * s * f[2]) * r + s * s * s * f[3];
-    (void)square;
-    *half = own * u;
+    ArcPoint p;
+    double slope, u = arc->kind == ARC_LINE ? line_at(arc->u, s, &slope) : cubic_at(arc->u, s, &slope);
+    p.v = arc->kind == ARC_CUBIC ? cubic_at(arc->v, s, &p.climb) : line_at(arc->v, s, &p.climb);
+    p.square = arc->kind == ARC_SQUARE ? u : u * u;
+    p.rise = arc->kind == ARC_SQUARE ? 0.5 * slope : u * slope;
+    return p;
 }
 
 static void halve(const double f[4], unsigned degree, double first[4], double last[4])
@@ -222,23 +213,22 @@ typedef enum Half { HALF_EITHER, HALF_PLUS, HALF_MINUS } Half; // q, A - |dy| w,
 
 static double value_at(const Turn *turn, const Arc *arc, Half half, double s, double *slope)
 {
-    double square, v, rise, climb, dy2 = turn->dy * turn->dy;
-    arc_at(arc, s, &square, &v);
-    arc_slopes(arc, s, square, &rise, &climb);
-    double a = turn_along(turn, v);
+    ArcPoint p = arc_at(arc, s);
+    double a = turn_along(turn, p.v), dy2 = turn->dy * turn->dy;
     if (half == HALF_EITHER) {
-        *slope = 2.0 * (dy2 * rise - turn->across * climb * a);
-        return dy2 * (square - turn->least2) - a * a;
+        *slope = 2.0 * (dy2 * p.rise - turn->across * p.climb * a);
+        return dy2 * (p.square - turn->least2) - a * a;
     }
-    double w = sqrt(greater_of(square - turn->least2, 0.0)), dy = half == HALF_PLUS ? fabs(turn->dy) : -fabs(turn->dy);
-    *slope = turn->across * climb - dy * rise / w;
+    double w = sqrt(greater_of(p.square - turn->least2, 0.0));
+    double dy = half == HALF_PLUS ? fabs(turn->dy) : -fabs(turn->dy);
+    *slope = turn->across * p.climb - dy * p.rise / w;
     return a - dy * w;
 }
 
-// Between 0 and 1, where the signs differ; `is_low_below`: it is below 0, or for q not above it, at 0.
-static double root_between(const Turn *turn, const Arc *arc, Half half, bool is_low_below)
+// Between 0 and 1, where the signs differ, from `s` on; `is_low_below`: it is below 0, or for q not above it, at 0.
+static double root_between(const Turn *turn, const Arc *arc, Half half, bool is_low_below, double s)
 {
-    double low = 0.0, high = 1.0, s = 0.5, before = 1.0;
+    double low = 0.0, high = 1.0, before = 1.0;
     for (int i = 0; i < STEPS_MOST && low < s && s < high; i++) {
         double slope, value = value_at(turn, arc, half, s, &slope), next = s - value / slope, change = fabs(next - s);
         bool is_below = half == HALF_EITHER ? value <= 0.0 : value < 0.0;
@@ -256,14 +246,14 @@ static double root_between(const Turn *turn, const Arc *arc, Half half, bool is_
 // Where the line is at a point of the curve: by its height, or by how far it is from y, as is less uncertain.
 static void cross_at(Turn *turn, const Arc *arc, double s, Half half)
 {
-    double square, v, dy = turn->dy;
-    arc_at(arc, s, &square, &v);
-    double w = sqrt(greater_of(square - turn->least2, 0.0)), a = turn_along(turn, v);
+    ArcPoint p = arc_at(arc, s);
+    double dy = turn->dy, w = sqrt(greater_of(p.square - turn->least2, 0.0)), a = turn_along(turn, p.v);
     bool is_plus = half == HALF_EITHER ? a >= 0.0 : half == HALF_PLUS;
-    double size = arc->kind == ARC_SQUARE ? turn->size : sqrt(square); // what w is uncertain by, times w / size of the shape
+    double size =
+        arc->kind == ARC_SQUARE ? turn->size : sqrt(p.square); // what w is uncertain by, times w / size of the shape
     bool by_radius = fabs(dy) * size < w * turn->across;
     double shadow = is_plus != (dy < 0.0) ? w : -w;
-    double t = by_radius ? (shadow - turn->along) / turn->across : (v - turn->y) / dy;
+    double t = by_radius ? (shadow - turn->along) / turn->across : (p.v - turn->y) / dy;
     turn->crossings[turn->count++] = (Crossing){turn->t_base + t, turn->side};
 }
 
@@ -288,7 +278,8 @@ static bool is_ordered(const Turn *turn, const Arc *arc)
         low = least;
     }
     bool is_square = arc->kind == ARC_SQUARE;
-    double inner2 = (is_square ? low : low * low) - turn->least2, outer2 = (is_square ? high : high * high) - turn->least2;
+    double inner2 = (is_square ? low : low * low) - turn->least2,
+           outer2 = (is_square ? high : high * high) - turn->least2;
     if (!(inner2 > 0.0)) {
         return false;
     }
@@ -306,9 +297,8 @@ static bool is_ordered(const Turn *turn, const Arc *arc)
                   ? scale * less_of(fabs(u_step[0]), fabs(u_step[1])) * (is_square ? 1.0 : low)
                   : 0.0;
     double climb_most = v_degree * greater_of(fabs(v_step[0]), fabs(v_step[1])) * turn->across;
-    double climb_least = v_step[0] > 0.0 || v_step[1] < 0.0
-                             ? v_degree * less_of(fabs(v_step[0]), fabs(v_step[1])) * turn->across
-                             : 0.0;
+    double climb_least =
+        v_step[0] > 0.0 || v_step[1] < 0.0 ? v_degree * less_of(fabs(v_step[0]), fabs(v_step[1])) * turn->across : 0.0;
     double dy = fabs(turn->dy);
     return climb_least * sqrt(inner2) > dy * rise[0] || dy * rise[1] > climb_most * sqrt(outer2);
 }
@@ -327,7 +317,8 @@ static void take_ends(Turn *turn, const Arc *arc, Place first, Place last)
     }
 }
 
-// Of a level line, which q does not tell from a curve that only comes to its height: whether a part may come through it.
+// Of a level line, which q does not tell from a curve that only comes to its height: whether a part may come through
+// it.
 static bool passes_height(const Arc *arc, const double a[4])
 {
     bool passes = false;
@@ -349,9 +340,11 @@ static bool is_nearer(const Turn *turn, const Arc *arc)
 static void arc_cross(Turn *turn, const Arc *arc, unsigned depth)
 {
     double a[4], q[FORM_MOST], most, greatest = 0.0;
-    unsigned count = arc_form(turn, arc, a, q, &most), changes = 0;
+    unsigned count = arc_form(turn, arc, a, q, &most), changes = 0, last_change = 0;
     for (unsigned i = 0; i + 1 < count; i++) {
-        changes += (q[i] > 0.0) != (q[i + 1] > 0.0);
+        bool is_change = (q[i] > 0.0) != (q[i + 1] > 0.0);
+        changes += is_change;
+        last_change = is_change ? i : last_change;
         greatest = greater_of(greatest, fabs(q[i]));
     }
     greatest = greater_of(greatest, fabs(q[count - 1]));
@@ -363,7 +356,9 @@ static void arc_cross(Turn *turn, const Arc *arc, unsigned depth)
         return;
     }
     if (changes == 1) {
-        cross_at(turn, arc, root_between(turn, arc, HALF_EITHER, !(q[0] > 0.0)), HALF_EITHER);
+        double step = 1.0 / (count - 1.0), from = q[last_change], part = from / (from - q[last_change + 1]);
+        double start = (last_change + part) * step; // where the coefficients' own line is 0
+        cross_at(turn, arc, root_between(turn, arc, HALF_EITHER, !(q[0] > 0.0), start), HALF_EITHER);
         return;
     }
     bool is_last = depth == DEPTH_MOST || greatest <= FLAT * most, is_apart = is_ordered(turn, arc);
@@ -378,10 +373,10 @@ static void arc_cross(Turn *turn, const Arc *arc, unsigned depth)
             return;
         }
         if (first.is_above_plus != last.is_above_plus) {
-            cross_at(turn, arc, root_between(turn, arc, HALF_PLUS, !first.is_above_plus), HALF_PLUS);
+            cross_at(turn, arc, root_between(turn, arc, HALF_PLUS, !first.is_above_plus, 0.5), HALF_PLUS);
         }
         if (first.is_above_minus != last.is_above_minus) {
-            cross_at(turn, arc, root_between(turn, arc, HALF_MINUS, !first.is_above_minus), HALF_MINUS);
+            cross_at(turn, arc, root_between(turn, arc, HALF_MINUS, !first.is_above_minus, 0.5), HALF_MINUS);
         }
         return;
     }
@@ -504,8 +499,7 @@ static void turn_heights(const Turn *turn, double radius, double *low, double *h
     }
 }
 
-unsigned sor_intervals(const Numbers *list, Vec3 low, Vec3 high, const Ray *ray, SideLeft left,
-                       RayInterval *intervals)
+unsigned sor_intervals(const Numbers *list, Vec3 low, Vec3 high, const Ray *ray, SideLeft left, RayInterval *intervals)
 {
     Turn turn;
     turn_set(&turn, ray, low, high, left.side != SIDE_NONE);

@@ -18,8 +18,7 @@ enum { REVOLVED_CURVE, REVOLVED_LOW, REVOLVED_HIGH };
 // sor_crossings_most, halved, and 1, at most.
 unsigned lathe_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray *ray, SideLeft left,
                          RayInterval *intervals);
-unsigned sor_intervals(const Numbers *list, Vec3 low, Vec3 high, const Ray *ray, SideLeft left,
-                       RayInterval *intervals);
+unsigned sor_intervals(const Numbers *list, Vec3 low, Vec3 high, const Ray *ray, SideLeft left, RayInterval *intervals);
 
 // A vector along the normal at a point of a side. Of a lathe it may be turned in or out, as the curve takes its way.
 Vec3 lathe_gradient(const Numbers *outline, Vec3 point, uint8_t side);

@@ -1,12 +1,12 @@
-// A function of t that is below 0 inside is taken apart until a part has one root at most: its slope is the difference of
-// two that each grow or each fall all along, so that those at the ends of a part bound it, and it has no root where its
-// value is farther from 0 than it can fall, one or none where its slope has one sign. Where rounding alone is left, signs
-// at the ends decide.
+// A function of t that is below 0 inside is taken apart until a part has one root at most: its slope is the difference
+// of two that each grow or each fall all along, so that those at the ends of a part bound it, and it has no root where
+// its value is farther from 0 than it can fall, one or none where its slope has one sign. Where rounding alone is left,
+// signs at the ends decide.
 //
-// With p, q >= 1 the shape is convex and N (scene/superellipsoid.h) is a convex function of t: Newton's steps from outside
-// come to its root from one side, or to where it rises again, and then there is none. With p, q <= 1 N is concave as long
-// as no coordinate changes its sign. Else |x|^p + |y|^p and (1 - |z|^q)^(p/q) are there, both convex or both concave,
-// and the function is their difference.
+// With p, q >= 1 the shape is convex and N (scene/superellipsoid.h) is a convex function of t: Newton's steps from
+// outside come to its root from one side, or to where it rises again, and then there is none. With p, q <= 1 N is
+// concave as long as no coordinate changes its sign. Else |x|^p + |y|^p and (1 - |z|^q)^(p/q) are there, both convex or
+// both concave, and the function is their difference.
 //
 // N is good to some u, so that a line that passes the surface by more than a few of these is not met, and one that is
 // as deep below it is.
@@ -99,7 +99,8 @@ static double root_between(const Line *line, Place first, Place last)
 // Whether the function keeps its sign between two places where it is the same, its slope being between two bounds.
 static bool stays(Place first, Place last, double least, double most)
 {
-    double sign = first.value < 0.0 ? -1.0 : 1.0, a = sign * first.value, b = sign * last.value, width = last.t - first.t;
+    double sign = first.value < 0.0 ? -1.0 : 1.0, a = sign * first.value, b = sign * last.value,
+           width = last.t - first.t;
     double fall = sign > 0.0 ? -least : most, rise = sign > 0.0 ? most : -least; // how fast it comes and goes
     if (!(fall > 0.0) || !(rise > 0.0)) {
         return fall <= 0.0 || rise <= 0.0;
@@ -135,7 +136,8 @@ static bool first_root(const Line *line, double t, double end, double way, doubl
 {
     for (int i = 0; i < STEPS_MOST; i++) {
         Vec3 gradient;
-        double size = superellipsoid_size_and_gradient(line->exponents, vec3_add_scaled(line->o, t, line->d), &gradient);
+        double size =
+            superellipsoid_size_and_gradient(line->exponents, vec3_add_scaled(line->o, t, line->d), &gradient);
         double value = size - 1.0, slope = way * vec3_dot(gradient, line->d), step = value / -slope;
         if (value <= 0.0) {
             *root = t;
@@ -217,6 +219,31 @@ static Vec3 rise_at(const Line *line, double t)
     return vec3(at.x < 0.0 ? -d.x : d.x, at.y < 0.0 ? -d.y : d.y, at.z < 0.0 ? -d.z : d.z);
 }
 
+// Sums of coordinates' sizes that are no more than 1 inside, by which powers are less than 1.
+static void sums_at(const Line *line, double t, double sums[3])
+{
+    Vec3 at = vec3_add_scaled(line->o, t, line->d);
+    double x = fabs(at.x), y = fabs(at.y), z = line->q <= 1.0 ? fabs(at.z) : 0.0;
+    bool is_joined = line->p <= 1.0;
+    sums[0] = is_joined ? x + y + z : x + z;
+    sums[1] = is_joined ? 0.0 : y + z;
+    sums[2] = line->q <= 1.0 ? 0.0 : fabs(at.z);
+}
+
+// Whether all between two places is outside, where no coordinate changes its sign: each sum is linear there.
+static bool is_beyond(const Line *line, double from, double to)
+{
+    double first[3], last[3];
+    const double most = 1.0 + 0x1p-40;
+    bool is_out = false;
+    sums_at(line, from, first);
+    sums_at(line, to, last);
+    for (int i = 0; i < 3; i++) {
+        is_out = is_out || (first[i] > most && last[i] > most);
+    }
+    return is_out;
+}
+
 // The function has slopes of which each grows or falls all along only as long as no coordinate changes its sign.
 static void find_all(Line *line, double low, double high)
 {
@@ -237,6 +264,9 @@ static void find_all(Line *line, double low, double high)
     }
     ends[count] = high;
     for (unsigned i = 1; i <= count; i++) {
+        if (is_beyond(line, ends[i - 1], ends[i])) {
+            continue;
+        }
         line->rise = rise_at(line, 0.5 * (ends[i - 1] + ends[i]));
         Place first = place_at(line, ends[i - 1]), last = place_at(line, ends[i]);
         if (i == 1 && first.value < 0.0) {

@@ -1,9 +1,10 @@
-// A ray against a lathe and a surface of revolution, beside the same crossings in 113 bits: curves that cross themselves,
-// touch the axis or lie on both sides of it, lines that are level, nearly level, upright, through the axis; and rays that
-// start on the curve. CHECK_LONG=1: a million rays of each kind.
+// A ray against a lathe and a surface of revolution, beside the same crossings in 113 bits: curves that cross
+// themselves, touch the axis or lie on both sides of it, lines that are level, nearly level, upright, through the axis;
+// and rays that start on the curve. CHECK_LONG=1: a million rays of each kind.
 //
-// Between two crossings of the oracle that are apart the shape must say inside where the oracle does; or where it does for
-// a line that is off by OFF of what the shape is large, or of a surface of revolution for squares of its radius that are.
+// Between two crossings of the oracle that are apart the shape must say inside where the oracle does; or where it does
+// for a line that is off by OFF of what the shape is large, or of a surface of revolution for squares of its radius
+// that are.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/revolved.h"
@@ -111,7 +112,8 @@ static Ray random_ray(Random *random, Kind kind, double unit)
 
 static unsigned intervals_of(const Shape *shape, const Ray *ray, SideLeft left, RayInterval *intervals)
 {
-    return (shape->is_sor ? sor_intervals : lathe_intervals)(&shape->list, shape->low, shape->high, ray, left, intervals);
+    return (shape->is_sor ? sor_intervals : lathe_intervals)(&shape->list, shape->low, shape->high, ray, left,
+                                                             intervals);
 }
 
 // ---- the oracle: the square of the radius, and the height, as polynomials along each piece
@@ -273,7 +275,8 @@ static void lathe_piece(const Shape *shape, uint32_t i, Piece *piece)
     times(u, n, u, n, piece->square);
 }
 
-static void sor_end(const Shape *shape, uint32_t place, uint32_t stretch, unsigned k, const Ray *ray, Crossings *crossings)
+static void sor_end(const Shape *shape, uint32_t place, uint32_t stretch, unsigned k, const Ray *ray,
+                    Crossings *crossings)
 {
     if (ray->direction.y != 0.0) {
         Real t = ((Real)sor_height(&shape->list, place) - (Real)ray->origin.y) / (Real)ray->direction.y;
@@ -305,7 +308,8 @@ static void oracle(const Shape *shape, const Ray *ray, Crossings *crossings)
         sor_end(shape, count, count - 1, 3, ray, crossings);
         for (uint32_t i = 0; i < count; i++) {
             const double *f = sor_squares(&shape->list, i);
-            Piece piece = {3, 1, {f[0], f[1], f[2], f[3]}, {sor_height(&shape->list, i), sor_height(&shape->list, i + 1)}};
+            Piece piece = {
+                3, 1, {f[0], f[1], f[2], f[3]}, {sor_height(&shape->list, i), sor_height(&shape->list, i + 1)}};
             cross(&piece, ray, crossings);
         }
     }
@@ -385,7 +389,8 @@ static bool in_order(const RayInterval *intervals, unsigned count)
 {
     bool is_fine = true;
     for (unsigned i = 0; i < count; i++) {
-        is_fine = is_fine && intervals[i].enter <= intervals[i].leave && (i == 0 || intervals[i - 1].leave <= intervals[i].enter);
+        is_fine = is_fine && intervals[i].enter <= intervals[i].leave &&
+                  (i == 0 || intervals[i - 1].leave <= intervals[i].enter);
     }
     return is_fine;
 }

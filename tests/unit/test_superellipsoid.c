@@ -1,5 +1,5 @@
-// A ray against a superellipsoid, beside its function in more digits at places along the line: exponents on both sides of
-// what is convex, lines along axes, through edges and by chance, and rays that start on the surface.
+// A ray against a superellipsoid, beside its function in more digits at places along the line: exponents on both sides
+// of what is convex, lines along axes, through edges and by chance, and rays that start on the surface.
 //
 // What the intervals say must hold at each place where the function is not 0 but for rounding, and where it is least
 // between two others, so that a crossing that is missed, or one too many, is seen. CHECK_LONG=1: a million rays each.
@@ -47,9 +47,12 @@ static bool says_inside(const RayInterval *intervals, unsigned count, double t)
 static double random_place(Random *random)
 {
     switch (random_bits(random) % 4) {
-    case 0: return 0.0;
-    case 1: return ((double)(random_bits(random) % 9) - 4.0) / 4.0;
-    default: return random_between(random, -1.2, 1.2);
+    case 0:
+        return 0.0;
+    case 1:
+        return ((double)(random_bits(random) % 9) - 4.0) / 4.0;
+    default:
+        return random_between(random, -1.2, 1.2);
     }
 }
 
@@ -79,9 +82,11 @@ static long double least_about(const double *e, const Ray *ray, long double plac
 }
 
 // How many places behind `from` are wrong.
-static int compare(const double *e, const Ray *ray, const RayInterval *intervals, unsigned count, double from, int *asked)
+static int compare(const double *e, const Ray *ray, const RayInterval *intervals, unsigned count, double from,
+                   int *asked)
 {
-    const long double room = 0x1p-46L * (1.0L + (long double)fmax(e[0], e[1])); // what N is off by; exponents magnify it
+    const long double room =
+        0x1p-46L * (1.0L + (long double)fmax(e[0], e[1])); // what N is off by; exponents magnify it
     const long double begin = (long double)from, step = 6.0L / PLACES;
     int wrong = 0;
     long double before = 1.0L, value = value_at(e, ray, begin);
@@ -135,7 +140,8 @@ static void test(const double *e)
     }
     tap_ok(asked > 1000 && wrong == 0 && differ == 0,
            "<%g, %g>: inside where the function is below 0 (%d of %d are not, %d)", e[0], e[1], wrong, asked, differ);
-    tap_ok(wrong_starts == 0, "<%g, %g>: the same from the surface (%d of %d are not)", e[0], e[1], wrong_starts, starts);
+    tap_ok(wrong_starts == 0, "<%g, %g>: the same from the surface (%d of %d are not)", e[0], e[1], wrong_starts,
+           starts);
 }
 
 int main(void)

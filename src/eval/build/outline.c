@@ -117,7 +117,8 @@ static bool draw_bezier(Block *block, OutlinePen *pen, const OutlinePoint *p, si
 }
 
 // Each outline has a point before its first, a cubic one another behind its last.
-static bool draw_spline(Block *block, OutlinePen *pen, OutlineCurve curve, const OutlinePoint *p, size_t count, Span span)
+static bool draw_spline(Block *block, OutlinePen *pen, OutlineCurve curve, const OutlinePoint *p, size_t count,
+                        Span span)
 {
     size_t first = 1, behind = curve == CURVE_CUBIC ? 1 : 0;
     while (first < count) {
@@ -148,8 +149,8 @@ bool outline_pen_begin(Block *block, OutlinePen *pen, OutlineCurve curve, bool i
     return true;
 }
 
-static bool make_outline(Block *block, OutlineCurve curve, bool is_conic, const OutlinePoint *points, size_t count, Span span,
-                         Numbers *outline)
+static bool make_outline(Block *block, OutlineCurve curve, bool is_conic, const OutlinePoint *points, size_t count,
+                         Span span, Numbers *outline)
 {
     OutlinePen pen;
     if (!outline_pen_begin(block, &pen, curve, is_conic, count + 1, span)) {

@@ -1,5 +1,5 @@
-// Lathes and surfaces of revolution: points become an outline (scene/outline.h) or a list of cubics (scene/sor.h) that is
-// turned about y.
+// Lathes and surfaces of revolution: points become an outline (scene/outline.h) or a list of cubics (scene/sor.h) that
+// is turned about y.
 //
 // The curve of a lathe need not be closed. As for POV-Ray it is then closed, where nothing is seen, by a straight line
 // from each of its ends along x to where it is nearest to the axis, and by one along y between them; gaps between
@@ -27,8 +27,8 @@ static bool radii_are_fine(Block *block, const OutlinePoint *points, size_t coun
     for (size_t i = 1; i + 1 < count; i++) {
         if (points[i].u < 0.0) {
             return block_fault(block, DIAG_E0487, span,
-                               "point %zu of the %s is at a radius less than 0: only the first and the last may be", i + 1,
-                               block_word(block));
+                               "point %zu of the %s is at a radius less than 0: only the first and the last may be",
+                               i + 1, block_word(block));
         }
     }
     return true;
@@ -80,6 +80,9 @@ static void close_curve(OutlinePen *pen, bool is_control_bound)
     uint32_t pieces = outline_piece_count(&drawn);
     OutlinePoint low, high;
     (is_control_bound ? outline_bounds : outline_extent)(&drawn, &low, &high);
+    for (uint32_t i = 0; i < pieces; i++) { // an extent has the starts of pieces only, as closed curves need
+        low.u = fmin(low.u, piece_end(&drawn, i, true).u);
+    }
     double inner = fmax(low.u, 0.0);
     pen->items[OUTLINE_MIRRORED] = low.u < 0.0 ? 1.0 : 0.0;
     for (uint32_t i = 0; i < pieces; i++) {
@@ -165,8 +168,8 @@ bool lathe_box(const void *object, OwnBox *own)
 
 // ---- surface of revolution
 
-// Heights rise, but for those of the first and the last point; no radius is less than 0; no point is as high as the next
-// but one.
+// Heights rise, but for those of the first and the last point; no radius is less than 0; no point is as high as the
+// next but one.
 static bool sor_points_are_fine(Block *block, const OutlinePoint *p, size_t count, Span span)
 {
     for (size_t i = 0; i < count; i++) {
@@ -178,9 +181,10 @@ static bool sor_points_are_fine(Block *block, const OutlinePoint *p, size_t coun
                                i + 1);
         }
         if (i > 1 && !(fabs(p[i].v - p[i - 2].v) >= LEVEL)) {
-            return block_fault(block, DIAG_E0487, span,
-                               "points %zu and %zu of the sor are at one height, so that there is no slope between them",
-                               i - 1, i + 1);
+            return block_fault(
+                block, DIAG_E0487, span,
+                "points %zu and %zu of the sor are at one height, so that there is no slope between them", i - 1,
+                i + 1);
         }
     }
     return true;

@@ -16,7 +16,8 @@ bool superellipsoid_body(Block *block)
     SuperellipsoidDesc *shape = &block->record->superellipsoid;
     Value value;
     if (!cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, block_here(block), "`superellipsoid` needs a vector of 2 here: its exponents");
+        return block_fault(block, DIAG_E0253, block_here(block),
+                           "`superellipsoid` needs a vector of 2 here: its exponents");
     }
     Span span = cursor_peek(&block->cursor)->span;
     if (!cursor_value(&block->cursor, &value)) {
