@@ -68,7 +68,8 @@ static void add_leaf(Scene *scene, Part part, uint32_t node, bool is_inverse)
 
 static Transform random_place(Random *random)
 {
-    Vec3 stretch = vec3(random_between(random, 0.5, 2.0), random_between(random, 0.5, 2.0), 1.0);
+    double along_x = random_between(random, 0.5, 2.0), along_y = random_between(random, 0.5, 2.0);
+    Vec3 stretch = vec3(along_x, along_y, 1.0);
     Vec3 turn = random_bits(random) % 4 ? random_vec3(random, 0, 360) : vec3(0.0, 0.0, 0.0);
     Transform map = transform_compose(transform_scale(stretch), transform_rotate(turn));
     return transform_compose(map, transform_translate(random_point(random, 2.0)));
@@ -87,7 +88,8 @@ static Geometry *random_composite(Random *random, const Form *form, Scene *scene
     add_leaf(scene, plane(&first, random_between(random, -1.5, 0.0), true), root, false);
     add_leaf(scene, plane(&first, random_between(random, 0.5, 2.0), false), root, false);
     if (random_bits(random) % 2) {
-        add_leaf(scene, quadric(&forms[random_bits(random) % 3], lists[1], random_place(random)), root, true);
+        const Form *hole = &forms[random_bits(random) % 3];
+        add_leaf(scene, quadric(hole, lists[1], random_place(random)), root, true);
     }
     if (random_bits(random) % 2) {
         if (!scene_add_node(scene, NODE_UNION, false, root, 0, &either)) {

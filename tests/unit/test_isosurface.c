@@ -99,7 +99,8 @@ static void test_lines(uint64_t seed)
                            t;
         Waves w = random_waves(&random);
         make_list(&w, accuracy, 1.0, list);
-        Ray ray = {random_vec3(&random, -1.0, 1.0), vec3_normalize(random_vec3(&random, -1.0, 1.0))};
+        Vec3 origin = random_vec3(&random, -1.0, 1.0);
+        Ray ray = {origin, vec3_normalize(random_vec3(&random, -1.0, 1.0))};
         IsosurfaceLine line = isosurface_line(list, NULL, ray, 1.0);
         bool up = isosurface_along(&line, 0.0) < 0.0;
         if (!isosurface_find(&line, 0.0, length, up, &t)) {
