@@ -214,16 +214,12 @@ static void check_points(void)
     mesh_free(mesh);
 }
 
-static double share(Random *random)
-{
-    return (double)random_below(random, 1000001) / 1e6;
-}
-
 // Above a field of heights a line straight up crosses no face, below it one.
 static void check_field(uint64_t seed)
 {
     Random random = {seed};
-    Mesh *mesh = mesh_field_new(2 + random_below(&random, 30), 2 + random_below(&random, 30));
+    uint32_t across = 2 + random_below(&random, 30), along = 2 + random_below(&random, 30);
+    Mesh *mesh = mesh_field_new(across, along);
     if (!mesh) {
         abort();
     }
@@ -234,7 +230,7 @@ static void check_field(uint64_t seed)
     mesh_field_build(mesh);
     uint64_t wrong = 0;
     for (int i = 0; i < 3000; i++) {
-        Vec3 point = vec3(1.2 * share(&random) - 0.1, 1.2 * share(&random) - 0.1, 1.2 * share(&random) - 0.1);
+        Vec3 point = random_vec3(&random, -0.1, 1.1);
         MeshRay ray = mesh_ray_make(&(Ray){point, vec3(0.0, 1.0, 0.0)});
         bool is_below = false;
         for (uint32_t face = 0; face < mesh->face_count; face++) {
