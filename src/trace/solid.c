@@ -584,7 +584,7 @@ double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *objec
         return rounding * (span + fabs(solid->data[1].x)) / fabs(vec3_dot(solid->data[0], ray->direction));
     }
     const double *columns = &solid->columns.x, *d = &object->direction.x, reach = span + solid->spread;
-    int across = solid_classes[solid->kind].across[side];
+    int across = solid_classes[solid->kind].across[side]; // NOLINT(bugprone-signed-char-misuse): less than 0 is meant
     if (across > 0) {
         int axis = across - 1;
         return rounding * (fixed_size(solid, axis) + columns[axis] * reach) / fabs(d[axis]);
