@@ -462,7 +462,7 @@ RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, Ray
         count = solid_intervals(solid, object, left, intervals);
     }
     bool is_met = false, is_inside = false;
-    double enter = 0.0, leave = 0.0;
+    double enter = (double)INFINITY, leave = 0.0; // of all intervals, which films among them leave out of order
     for (unsigned i = 0; i < count; i++) {
         const RayInterval *interval = &intervals[i];
         double room = solid_is_convex(solid) ? interval->leave - interval->enter : interval_room(intervals, count, i);
@@ -471,8 +471,8 @@ RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, Ray
             continue;
         }
         bool starts_inside = traversal_interval(p, index, interval, room, is_start, is_beside);
-        enter = is_met || starts_inside ? enter : interval->enter;
-        leave = interval->leave;
+        enter = starts_inside ? 0.0 : less_of(enter, interval->enter);
+        leave = greater_of(leave, interval->leave);
         is_inside = is_inside || starts_inside;
         is_met = true;
     }
