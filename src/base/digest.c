@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/digest.h"
 
+#include "base/attributes.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -18,9 +20,9 @@ static const uint8_t sigma[10][16] = {
     {6, 15, 14, 9, 11, 3, 0, 8, 12, 2, 13, 7, 1, 4, 10, 5}, {10, 2, 8, 4, 7, 6, 1, 5, 15, 11, 9, 14, 3, 12, 13, 0},
 };
 
-enum { ROUNDS = 12, PARAMETERS = 0x01010000 }; // no key, one sequential tree (section 2.8)
+enum { PARAMETERS = 0x01010000 }; // no key, one sequential tree (section 2.8)
 
-static uint64_t rotated(uint64_t word, unsigned by)
+RT_ALWAYS_INLINE uint64_t rotated(uint64_t word, unsigned by)
 {
     return word >> by | word << (64 - by);
 }
@@ -35,7 +37,7 @@ static uint64_t little_endian(const unsigned char *bytes)
 }
 
 // Section 3.1.
-static void mix(uint64_t *a, uint64_t *b, uint64_t *c, uint64_t *d, uint64_t x, uint64_t y)
+RT_ALWAYS_INLINE void mix(uint64_t *a, uint64_t *b, uint64_t *c, uint64_t *d, uint64_t x, uint64_t y)
 {
     *a += *b + x;
     *d = rotated(*d ^ *a, 32);
@@ -47,7 +49,20 @@ static void mix(uint64_t *a, uint64_t *b, uint64_t *c, uint64_t *d, uint64_t x, 
     *b = rotated(*b ^ *c, 63);
 }
 
-// Section 3.2.
+// With a row of sigma that is known when this is compiled, as all indices are: words stay in registers.
+RT_ALWAYS_INLINE void mix_round(uint64_t v[16], const uint64_t m[16], const uint8_t s[16])
+{
+    mix(&v[0], &v[4], &v[8], &v[12], m[s[0]], m[s[1]]);
+    mix(&v[1], &v[5], &v[9], &v[13], m[s[2]], m[s[3]]);
+    mix(&v[2], &v[6], &v[10], &v[14], m[s[4]], m[s[5]]);
+    mix(&v[3], &v[7], &v[11], &v[15], m[s[6]], m[s[7]]);
+    mix(&v[0], &v[5], &v[10], &v[15], m[s[8]], m[s[9]]);
+    mix(&v[1], &v[6], &v[11], &v[12], m[s[10]], m[s[11]]);
+    mix(&v[2], &v[7], &v[8], &v[13], m[s[12]], m[s[13]]);
+    mix(&v[3], &v[4], &v[9], &v[14], m[s[14]], m[s[15]]);
+}
+
+// Section 3.2. Texts of gigabytes go through here.
 static void compress(Digest *digest, const unsigned char *block, uint64_t size, int is_last)
 {
     uint64_t m[16], v[16];
@@ -58,16 +73,18 @@ static void compress(Digest *digest, const unsigned char *block, uint64_t size, 
     }
     v[12] ^= digest->total; // 2^64 bytes are never reached
     v[14] = is_last ? ~v[14] : v[14];
-    for (size_t round = 0; round < ROUNDS; round++) {
-        const uint8_t *s = sigma[round % 10];
-        for (size_t i = 0; i < 4; i++) {
-            mix(&v[i], &v[4 + i], &v[8 + i], &v[12 + i], m[s[2 * i]], m[s[2 * i + 1]]);
-        }
-        for (size_t i = 0; i < 4; i++) {
-            mix(&v[i], &v[4 + (i + 1) % 4], &v[8 + (i + 2) % 4], &v[12 + (i + 3) % 4], m[s[8 + 2 * i]],
-                m[s[9 + 2 * i]]);
-        }
-    }
+    mix_round(v, m, sigma[0]);
+    mix_round(v, m, sigma[1]);
+    mix_round(v, m, sigma[2]);
+    mix_round(v, m, sigma[3]);
+    mix_round(v, m, sigma[4]);
+    mix_round(v, m, sigma[5]);
+    mix_round(v, m, sigma[6]);
+    mix_round(v, m, sigma[7]);
+    mix_round(v, m, sigma[8]);
+    mix_round(v, m, sigma[9]);
+    mix_round(v, m, sigma[0]);
+    mix_round(v, m, sigma[1]);
     for (size_t i = 0; i < 8; i++) {
         digest->state[i] ^= v[i] ^ v[i + 8];
     }
@@ -87,6 +104,12 @@ void digest_add(Digest *digest, const void *bytes, size_t size)
         if (digest->filled == DIGEST_BLOCK) {
             compress(digest, digest->block, DIGEST_BLOCK, 0);
             digest->filled = 0;
+        }
+        if (digest->filled == 0 && size > DIGEST_BLOCK) { // not the last block
+            compress(digest, at, DIGEST_BLOCK, 0);
+            at += DIGEST_BLOCK;
+            size -= DIGEST_BLOCK;
+            continue;
         }
         size_t room = DIGEST_BLOCK - digest->filled, part = size < room ? size : room;
         memcpy(digest->block + digest->filled, at, part);
