@@ -150,7 +150,9 @@ def check_kills(test, place, count):
     scene, options, ending = "rich", ["--samples=24"], ".png"
     expected, seconds = reference(place, scene, options, ending)
     wrong, killed, named, texts = 0, 0, 0, ""
-    for _ in range(count):
+    for turn in range(count):
+        if turn and turn % 10 == 0:
+            print("# %d runs, %d killed, %d wrong" % (turn, killed, wrong), flush=True)
         for name in os.listdir(place.path):
             if name.startswith("killed"):
                 os.unlink(os.path.join(place.path, name))
