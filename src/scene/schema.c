@@ -685,7 +685,7 @@ static const FinishDesc finish_defaults = {.finish = FINISH_DEFAULTS};
 #define PATTERN_PART                                                                                                   \
     {                                                                                                                  \
         .transform = IDENTITY, .pattern = {.frequency = 1.0, .exponent = 1.0, .agate_turb = 1.0, .octaves = 6,        \
-                                            .form = {-1.0, 1.0, 0.0}, .metric = 2.0,                                   \
+                                            .form = {-1.0, 1.0, 0.0}, .metric = 2.0, .power = 2,                       \
                                             .lambda = 2.0, .omega = 0.5}                                               \
     }
 

@@ -1,5 +1,5 @@
-// A ray against any part: prepared parts, their intervals, and surfaces at a hit. What is known of each kind stands in one
-// table, SolidClass.
+// A ray against any part: prepared parts, their intervals, and surfaces at a hit. What is known of each kind stands in
+// one table, SolidClass.
 //
 // The ray is taken into the part's own space, where its parameter means the same; its direction is not of unit length
 // there. Knows nothing of composites.
@@ -59,20 +59,20 @@ typedef struct Solid {
     uint8_t traits;        // SolidTrait bits
     uint8_t films;         // a bit for each side that is seen and bounds nothing, within the shape
     uint8_t flags, hidden; // of the composite, if it is in one
-    bool flips;            // the outside of what the part is in is this part's inside
-    bool is_needed;        // outside of it nothing is seen of the composite
-    bool decides;          // likewise, and a line is inside of it once
+    bool flips : 1;        // the outside of what the part is in is this part's inside
+    bool is_needed : 1;    // outside of it nothing is seen of the composite
+    bool decides : 1;      // likewise, and a line is inside of it once
     uint32_t node;         // of the geometry; NODE_NONE alone
     uint32_t composite;    // NODE_NONE alone
     uint32_t twin;         // of a ball: the slot of a sphere that equals it, SLOT_NONE if there is none
     MaterialIndex material;
     uint32_t order, body;
     Vec3 centre;
-    double extent, spread; // solid_measure; extent: 0 where no column has more than one entry
-    Vec3 columns;          // lengths of the columns of to_object
-    uint8_t entries[3];    // of each column: a bit for each that is not 0
-    uint8_t unseen;        // a bit for each side that bounds the inside and is not seen
-    uint32_t interval_most; // of a line, at most; 0: it is flat
+    double extent, spread;      // solid_measure; extent: 0 where no column has more than one entry
+    Vec3 columns;               // lengths of the columns of to_object
+    uint8_t entries[3];         // of each column: a bit for each that is not 0
+    uint8_t unseen;             // a bit for each side that bounds the inside and is not seen
+    uint32_t interval_most;     // of a line, at most; 0: it is flat
     Linear to_object, to_world; // what tests need stands before what surfaces need
     union {
         Vec3 data[3];
@@ -162,8 +162,8 @@ static inline bool solid_flat_root(const Solid *solid, const Ray *object, double
 }
 
 // What the bounds of rounding want of the map: its columns, and as `extent` the sum of the lengths that it gives to the
-// fixed shape, more where it makes angles narrow: what its own rounding, and its inverse's, are beside. `spread` is that
-// and the sum of the coordinates of the centre.
+// fixed shape, more where it makes angles narrow: what its own rounding, and its inverse's, are beside. `spread` is
+// that and the sum of the coordinates of the centre.
 void solid_measure(Solid *solid);
 
 // How far a crossing's t may be off by rounding; docs/numerics.md has the bound. Infinite along the surface.
@@ -172,8 +172,8 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
 // The same of a plane of any normal in the solid's own space.
 double solid_plane_error(const Solid *solid, const Ray *ray, const Ray *object, double t, Vec3 n);
 
-// What is at least that, for less work; `span` is |o| + t |d| of the ray, each |v| the sum of its coordinates' sizes. It
-// may be NaN.
+// What is at least that, for less work; `span` is |o| + t |d| of the ray, each |v| the sum of its coordinates' sizes.
+// It may be NaN.
 double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double span);
 
 // The same for a ball, whose crossing is not off by more than its interval is long.

@@ -83,11 +83,13 @@ double sphere_exact(const SphereRay *ray, const SphereData *ball, const SphereDa
         a = double_word_add(a, two_product(s.d[i], s.d[i]));
     }
     DoubleWord r_squared = two_product(s.radius, s.radius);
-    DoubleWord discriminant = double_word_sub(double_word_mul(a, r_squared), sum_of_squares(cross));
+    DoubleWord aside = sum_of_squares(cross), along = double_word_mul(b, b);
+    DoubleWord discriminant = double_word_sub(double_word_mul(a, r_squared), aside);
     DoubleWord c = double_word_sub(sum_of_squares(s.f), r_squared);
     if (is_concentric) {
+        // What rounding did to the origin is a share of both squares: the smaller one says more.
         c = concentric_c(&s, start);
-        discriminant = double_word_sub(double_word_mul(b, b), double_word_mul(a, c));
+        discriminant = along.hi < aside.hi ? double_word_sub(along, double_word_mul(a, c)) : discriminant;
     }
     if (discriminant.hi < 0.0 || (c.hi >= 0.0 && !(b.hi > 0.0))) {
         return 0.0;

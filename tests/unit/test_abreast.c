@@ -44,7 +44,12 @@ static void test_escapes(PatternType type, const char *name)
         NoiseSource source = {.escape = escape_kernel_choose(geometry_isa(isa))};
         int different = strcmp(source.escape->name, geometry_isa(isa)) != 0;
         for (int turn = 0; turn < 500; turn++) {
-            Pattern pattern = {.type = (uint8_t)type, .frequency = turn % 3, .count = (turn % 7) * (turn % 7) * 5 + 1};
+            Pattern pattern = {.type = (uint8_t)type,
+                               .frequency = turn % 3,
+                               .count = (turn % 7) * (turn % 7) * 5 + 1,
+                               .power = 2,
+                               .exterior = 1,
+                               .interior_factor = 1.0};
             pattern.vector.x = random_between(&random, -1.2, 0.4);
             pattern.vector.y = random_between(&random, -0.8, 0.8);
             different += differences(&pattern, &source, 1 + random_below(&random, MOST), &random);
@@ -73,11 +78,13 @@ static void test_noise(PatternType type, const char *name)
 
 int main(void)
 {
-    tap_ok(pattern_goes_abreast(&(Pattern){.type = PATTERN_MANDEL}) &&
-               pattern_goes_abreast(&(Pattern){.type = PATTERN_JULIA}) &&
-               pattern_goes_abreast(&(Pattern){.type = PATTERN_BUMPS}) &&
-               !pattern_goes_abreast(&(Pattern){.type = PATTERN_GRADIENT}),
-           "patterns of many steps and of noise go abreast");
+    tap_ok(
+        pattern_goes_abreast(&(Pattern){.type = PATTERN_MANDEL, .power = 2, .exterior = 1, .interior_factor = 1.0}) &&
+            pattern_goes_abreast(
+                &(Pattern){.type = PATTERN_JULIA, .power = 2, .exterior = 1, .interior_factor = 1.0}) &&
+            pattern_goes_abreast(&(Pattern){.type = PATTERN_BUMPS}) &&
+            !pattern_goes_abreast(&(Pattern){.type = PATTERN_GRADIENT}),
+        "patterns of many steps and of noise go abreast");
     test_escapes(PATTERN_MANDEL, "mandel");
     test_escapes(PATTERN_JULIA, "julia");
     test_noise(PATTERN_BOZO, "bozo");

@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "math/random.h"
 #include "trace/sphere.h"
 #include "study/cases.h"
 #include "unit/tap.h"
@@ -67,8 +68,29 @@ static void test_not_numbers(void)
     tap_ok(false_hits == 0, "NaN, infinity, zero direction and zero radius meet nothing (%d did)", false_hits);
 }
 
+// A ray from the surface of a sphere to its middle meets whatever lies about that, however small: rounding moves its
+// start by some 2^-53, and so the ray by as little.
+static void test_small_within(void)
+{
+    Random random = {11};
+    int missed = 0, wrong = 0;
+    for (int i = 0; i < 20000; i++) {
+        Vec3 direction = random_direction(&random);
+        double radius = ldexp(random_between(&random, 0.5, 1.0), -(int)(random_bits(&random) % 46));
+        SphereRay ray = sphere_ray_make(vec3_neg(direction), direction);
+        SphereData within = sphere_data_make(vec3(0.0, 0.0, 0.0), radius), own = sphere_data_make(within.centre, 1.0);
+        bool inside = true;
+        double t = sphere_exact(&ray, &within, &own, &inside);
+        missed += !(t > 0.0) || inside;
+        wrong += !(fabs(t - (1.0 - radius)) <= 0x1p-50);
+    }
+    tap_ok(missed == 0 && wrong == 0, "small spheres within one that the ray starts on: %d missed, %d elsewhere", missed,
+           wrong);
+}
+
 int main(void)
 {
+    test_small_within();
     test_exact_cases();
     test_not_numbers();
     return tap_done();

@@ -54,6 +54,15 @@ __attribute__((unused)) static Vec3 random_point(Random *random, double size)
 
 // ---- the tree against testing every sphere
 
+// As sphere_hit, for a ray that starts on a sphere: its radius is known better than by where the ray starts.
+__attribute__((unused)) static double sphere_hit_from(const SphereRay *ray, const SphereData *ball,
+                                                      const SphereData *start, bool *inside)
+{
+    double t;
+    bool is_uncertain = sphere_test(ray, ball, &t, inside) == SPHERE_UNCERTAIN;
+    return is_uncertain ? sphere_exact(ray, ball, start, inside) : sphere_hit(ray, ball, inside);
+}
+
 // Every sphere in order of declaration; a later one has to be strictly nearer, and so by exact arithmetic where the
 // roots are the same but for their last bits.
 __attribute__((unused)) static double brute_force(const Scene *scene, const SphereRay *ray, const SphereData *start,
@@ -67,7 +76,7 @@ __attribute__((unused)) static double brute_force(const Scene *scene, const Sphe
         SphereData ball = sphere_data_make(scene->spheres.items[i].centre, scene->spheres.items[i].radius);
         bool inside = inward;
         double t = sphere_data_equal(&ball, start) ? (inward ? sphere_root_inward(ray, &ball) : (double)NAN)
-                                                   : sphere_hit(ray, &ball, &inside);
+                                                   : sphere_hit_from(ray, &ball, start, &inside);
         bool is_tie = *order != UINT32_MAX && fabs(t - t_best) <= SPHERE_TIE * t_best;
         if (t > 0.0 && (is_tie ? sphere_roots_compare(ray, &ball, inside, &best, best_inside, t) < 0 : t < t_best)) {
             t_best = t;
