@@ -76,7 +76,8 @@ static void test_small_within(void)
     int missed = 0, wrong = 0;
     for (int i = 0; i < 20000; i++) {
         Vec3 direction = random_direction(&random);
-        double radius = ldexp(random_between(&random, 0.5, 1.0), -(int)(random_bits(&random) % 46));
+        int power = -(int)(random_bits(&random) % 46);
+        double radius = ldexp(random_between(&random, 0.5, 1.0), power);
         SphereRay ray = sphere_ray_make(vec3_neg(direction), direction);
         SphereData within = sphere_data_make(vec3(0.0, 0.0, 0.0), radius), own = sphere_data_make(within.centre, 1.0);
         bool inside = true;

@@ -228,12 +228,14 @@ static bool make_room(PatchDrawing *drawing)
     return true;
 }
 
-// The mesh stands around the first point, so that single precision does not suffer from where it is.
+// The mesh stands around the first point, so that single precision does not suffer from where it is, and is made as the
+// scene's text says it: `flatness` does not grow with a scene that is drawn at another scale.
 ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *transform, Part *part)
 {
-    Vec3 points[4][4], origin = transform_point(transform, patch->points[0][0]);
+    Transform own = transform_compose(*transform, world_inverse(ev));
+    Vec3 points[4][4], origin = transform_point(&own, patch->points[0][0]);
     for (int i = 0; i < POINTS; i++) {
-        Vec3 point = transform_point(transform, patch->points[i / 4][i % 4]);
+        Vec3 point = transform_point(&own, patch->points[i / 4][i % 4]);
         points[i / 4][i % 4] = vec3_sub(point, origin);
     }
     PatchDrawing drawing = {
@@ -251,7 +253,7 @@ ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *tran
     }
     *part = part_empty(patch->part.span.begin);
     part->kind = PART_MESH;
-    part->to_world = transform_translate(origin);
+    part->to_world = transform_compose(transform_translate(origin), world_transform(ev));
     part->mesh = (PartMesh){mesh->low, mesh->high, mesh, 0};
     return part_finish(part) ? SHAPE_MADE : SHAPE_FAULT;
 }

@@ -81,8 +81,9 @@ bool objects_init(Eval *ev) RT_MUST_CHECK;
 bool objects_finish(Eval *ev) RT_MUST_CHECK;
 void objects_fini(Eval *ev);
 
-// The transform around the whole scene, and the factor of lengths that no transform changes.
+// The transform around the whole scene, what undoes it, and the factor of lengths that no transform changes.
 Transform world_transform(const Eval *ev);
+Transform world_inverse(const Eval *ev);
 double world_scale(const Eval *ev);
 
 // block.c

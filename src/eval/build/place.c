@@ -604,6 +604,16 @@ Transform world_transform(const Eval *ev)
     return transform_compose(scale, transform_translate(world->shift));
 }
 
+Transform world_inverse(const Eval *ev)
+{
+    const EvalWorld *world = ev->options.world;
+    if (!world) {
+        return transform_identity();
+    }
+    double scale = 1.0 / world->scale;
+    return transform_compose(transform_translate(vec3_neg(world->shift)), transform_scale(vec3(scale, scale, scale)));
+}
+
 double world_scale(const Eval *ev)
 {
     return ev->options.world ? ev->options.world->scale : 1.0;
