@@ -31,6 +31,7 @@ _Static_assert(sizeof(Warp) == sizeof(Transform) + 3 * sizeof(Vec3) + 6 * sizeof
 void scene_init(Scene *scene)
 {
     *scene = (Scene){
+        .text_unit = 1.0,
         .sky_emission = {1.0, 1.0, 1.0},
         .background = {0.0, 0.0, 0.0, 0.0, 1.0}, // none
         .camera =

@@ -518,7 +518,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         .solid_count = (uint32_t)scene->parts.count,
         .node_count = (uint32_t)scene->nodes.count,
         .csg_count = (uint32_t)scene->composites.count,
-        .isosurfaces = {.scale = ldexp(1.0, exponent)},
+        .isosurfaces = {.scale = ldexp(1.0, exponent) / scene->text_unit},
     };
     if (table->solid_count == 0) {
         return true;

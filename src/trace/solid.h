@@ -29,7 +29,7 @@ typedef struct MeshTable MeshTable;
 
 // What isosurfaces of one geometry have in common.
 typedef struct IsosurfaceWorld {
-    double scale;           // of prepared lengths in those of the scene, a power of two
+    double scale;           // of prepared lengths in those of the scene's text
     const Abandon *abandon; // NULL: no ray is left untraced; not owned
 } IsosurfaceWorld;
 

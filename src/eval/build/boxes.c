@@ -62,10 +62,8 @@ static bool scaled_box(const Eval *ev, const BoxOwner *owner, StartShape *start)
     if (!ev->options.world) {
         return extent_box(owner, &start->low, &start->high);
     }
-    double smaller = 1.0 / ev->options.world->scale;
-    Transform world = world_transform(ev), back = transform_translate(vec3_neg(ev->options.world->shift));
-    back = transform_compose(back, transform_scale(vec3(smaller, smaller, smaller)));
-    BoxOwner written = {owner->kind, owner->object, transform_compose(owner->outer, back)};
+    Transform world = world_transform(ev);
+    BoxOwner written = {owner->kind, owner->object, transform_compose(owner->outer, world_inverse(ev))};
     bool is_endless = extent_box(&written, &start->low, &start->high);
     start->low = transform_point(&world, start->low);
     start->high = transform_point(&world, start->high);
