@@ -393,7 +393,7 @@ static bool grow_members(Eval *ev, SchemaKind kind, const UnionDesc *group, cons
         branch.is_inverse = kind == KIND_DIFFERENCE;
     }
     Node *node = is_fine ? &ev->scene->nodes.items[branch.parent] : NULL;
-    if (node && node->child_count == 0 && op == NODE_MERGE) {
+    if (node && node->child_count == 0 && op == NODE_MERGE && outer->parent != NODE_NONE) {
         node->op = NODE_UNION; // as what takes the place of a shape that is nothing, so that dumps read back the same
     }
     return is_fine;
