@@ -395,6 +395,9 @@ def test_interrupts(name, scene, slow):
             late.append(outcome[1])
     if max(late, default=0.0) > MOMENT * slow:
         print("# %s: %.2f s after the interrupt" % (name, max(late)))
+    if codes == {3} and "ttf" in text:
+        tap.skip("interrupted at any moment: " + name, "no FreeType, or none of POV-Ray's fonts")
+        return
     # Seconds of the processors, all threads together: on an idle machine no more passes on the wall.
     tap.ok(codes <= {0, 1, 4, 143, -signal.SIGTERM} and max(late, default=0.0) <= 5 * MOMENT * slow * os.cpu_count(),
            "interrupted at any moment: " + name, "exit %s, seconds %s" % (codes, late))
