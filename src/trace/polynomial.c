@@ -14,6 +14,13 @@
 #include "scene/polynomial.h"
 #include "trace/roots.h"
 
+// Of loops whose bounds are constants where it counts. clang unrolls these by itself, and warns of those that have none.
+#ifdef __clang__
+#define UNROLLED
+#else
+#define UNROLLED _Pragma("GCC unroll 5")
+#endif
+
 enum { TERMS_MOST = POLYNOMIAL_ORDER_MOST + 1 };
 _Static_assert((int)POLYNOMIAL_ORDER_MOST <= (int)ROOTS_DEGREE_MOST, "the root finder has room");
 
@@ -37,7 +44,7 @@ RT_ALWAYS_INLINE int times_line(double *p, int degree, double b, double d)
         return degree;
     }
     p[degree + 1] = p[degree] * d;
-#pragma GCC unroll 5
+    UNROLLED
     for (int i = degree; i > 0; i--) {
         p[i] = p[i] * b + p[i - 1] * d;
     }
@@ -47,7 +54,7 @@ RT_ALWAYS_INLINE int times_line(double *p, int degree, double b, double d)
 
 RT_ALWAYS_INLINE int plus(double *p, int degree, const double *q, int q_degree)
 {
-#pragma GCC unroll 5
+    UNROLLED
     for (int i = 0; i <= q_degree; i++) {
         p[i] = i <= degree ? p[i] + q[i] : q[i];
     }
@@ -61,13 +68,13 @@ RT_ALWAYS_INLINE void compose_of(const Line *line, int order, bool skips, double
     double row[TERMS_MOST], part[TERMS_MOST];
     int whole_degree = -1;
     const double *c = polynomial_terms(line->list);
-#pragma GCC unroll 5
+    UNROLLED
     for (int i = order; i >= 0; i--) {
         int row_degree = -1;
-#pragma GCC unroll 5
+        UNROLLED
         for (int j = order - i; j >= 0; j--) {
             int part_degree = -1;
-#pragma GCC unroll 5
+            UNROLLED
             for (int k = order - i - j; k >= 0; k--) {
                 double term = *c++;
                 part_degree = times_line(part, part_degree, line->base.z, line->along.z);
@@ -172,13 +179,13 @@ RT_ALWAYS_INLINE void errors_of(const Line *line, int order, double *sizes, doub
     double moved = line->t_base == 0.0 ? 0.0 : 0x1p-52 * (origin + vec3_max_abs(line->base)); // by rounding b
     double base = vec3_max_abs(line->base) + moved, along = vec3_max_abs(line->along);
     int degree = -1;
-#pragma GCC unroll 5
+    UNROLLED
     for (int i = order; i >= 0; i--) {
         degree = times_line(sizes, degree, base, along);
         degree = plus(sizes, degree, &sums[i], 0);
     }
     double rounding = (6.0 * order + 16.0) * 0x1p-53, by_move = moved / along;
-#pragma GCC unroll 5
+    UNROLLED
     for (int i = 0; i <= order; i++) {
         errors[i] = rounding * sizes[i] + (i < order ? by_move * (i + 1) * sizes[i + 1] : 0.0);
     }
