@@ -167,9 +167,10 @@ static void place_at_bearing(FT_Face face, FT_Pos left, FontGlyph *glyph)
     FT_BBox points, told = {0};
     FT_Outline *outline = &face->glyph->outline;
     FT_Outline_Get_CBox(outline, &points);
-    FT_Pos begin = table_head(face, glyph->index, head) ? int16_at(head + 2) : left;
+    bool has_head = table_head(face, glyph->index, head);
+    FT_Pos begin = has_head ? int16_at(head + 2) : left;
     FT_Pos moved = left - begin; // by FreeType
-    if (int16_at(head) > 0) {
+    if (has_head && int16_at(head) > 0) {
         told = (FT_BBox){begin, int16_at(head + 4), int16_at(head + 6), int16_at(head + 8)};
     }
     FT_Pos right = left - (points.xMin - moved < told.xMin ? points.xMin - moved : told.xMin);

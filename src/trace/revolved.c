@@ -87,6 +87,13 @@ static bool turn_passes(const Turn *turn, double inner, double outer, double low
            turn->least2 > outer * outer;
 }
 
+// The line about the axis; false when it passes the whole shape by.
+static bool turn_begin(Turn *turn, const Ray *ray, Vec3 low, Vec3 high, SideLeft left)
+{
+    turn_set(turn, ray, low, high, left.side != SIDE_NONE);
+    return !turn_passes(turn, 0.0, high.x, low.y, high.y);
+}
+
 // ---- a part of a piece
 
 // The value of a cubic, and how it changes.
@@ -412,8 +419,7 @@ unsigned lathe_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray 
                          RayInterval *intervals)
 {
     Turn turn;
-    turn_set(&turn, ray, low, high, left.side != SIDE_NONE);
-    if (turn_passes(&turn, 0.0, high.x, low.y, high.y)) {
+    if (!turn_begin(&turn, ray, low, high, left)) {
         return 0;
     }
     Crossing crossings[lathe_crossings_most(outline)];
@@ -502,8 +508,7 @@ static void turn_heights(const Turn *turn, double radius, double *low, double *h
 unsigned sor_intervals(const Numbers *list, Vec3 low, Vec3 high, const Ray *ray, SideLeft left, RayInterval *intervals)
 {
     Turn turn;
-    turn_set(&turn, ray, low, high, left.side != SIDE_NONE);
-    if (turn_passes(&turn, 0.0, high.x, low.y, high.y)) {
+    if (!turn_begin(&turn, ray, low, high, left)) {
         return 0;
     }
     Crossing crossings[sor_crossings_most(list)];

@@ -3,8 +3,8 @@
 // A box is POV-Ray's, as measured: a corner and lengths in single precision. A sphere that was only moved, turned and
 // scaled evenly has its own box; of any other shape, or after any other transform, the corners of a box in the shape's
 // own space are turned. The box of a union or intersection is made of those of its members, and each transform of it
-// turns that box again; that of a text is the one of its letters side by side. What clips or bounds an object gives its box instead where that is smaller. Knows nothing of
-// what is drawn.
+// turns that box again; that of a text is the one of its letters side by side. What clips or bounds an object gives its
+// box instead where that is smaller. Knows nothing of what is drawn.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
