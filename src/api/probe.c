@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "trace/query.h"
+#include "trace/query_surface.h"
 
 static void *probe_open(const Scene *shapes)
 {

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "trace/query.h"
+#include "trace/query_surface.h"
 
 uint32_t extent_count(const Geometry *g)
 {

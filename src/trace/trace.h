@@ -1,8 +1,8 @@
 // The tracer's geometry: scene shapes prepared for rays, and what a ray meets.
 //
 // Turns Scene records into an immutable Geometry (built once, then const and shared by threads). The queries themselves
-// are inline, in trace/query.h, so that a kernel contains only the shapes its scene has. Knows nothing of light, colour
-// or pixels.
+// are inline, in trace/query.h and query_surface.h, so that a kernel contains only the shapes its scene has. Knows
+// nothing of light, colour or pixels.
 //
 // Self-hits: a secondary ray says which shape it starts on and to which side it leaves. Outward, that shape is skipped,
 // which is exact because each shape is convex or flat; inward, a sphere is met again at t = -2 (P·d)/(d·d). There is no

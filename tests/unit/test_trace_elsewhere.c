@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 #include "trace/elsewhere.h"
-#include "trace/query.h"
+#include "trace/query_surface.h"
 #include "unit/tap.h"
 
 enum { SPHERES = 600, PARTS = 3, RAYS = 4000, BOUNCES = 4 };

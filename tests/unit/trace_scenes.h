@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "scene/scene.h"
-#include "trace/query.h"
+#include "trace/query_surface.h"
 #include "unit/random.h"
 
 __attribute__((unused)) static bool closest(const Geometry *g, Ray ray, RayStart start, double t_max, Hit *hit)

@@ -13,7 +13,7 @@
 #include "render/sample/scratch.h"
 #include "render/sample/tiles.h"
 #include "scene/scene_extent.h"
-#include "trace/query.h"
+#include "trace/query_surface.h"
 
 enum { PARTS = OVERLAY_PARTS, PARTS_ALL = PARTS * PARTS, ROWS = TILE_SIZE * PARTS, WORD = 64, ROW_WORDS = ROWS / WORD };
 

@@ -8,7 +8,7 @@
 #include "render/shade/inside.h"
 
 #include "scene/within.h"
-#include "trace/query.h"
+#include "trace/query_surface.h"
 
 // Of unit length, and along nothing that people like to build along.
 static const Vec3 odd_direction = {0.36, 0.80, 0.48};

@@ -17,7 +17,7 @@
 #include "render/shade/light.h"
 #include "render/shade/light_grid.h"
 #include "render/surface/texture.h"
-#include "trace/query.h"
+#include "trace/query_surface.h"
 
 // What reaches a point of the first lights: found once for all layers of what is seen there.
 enum { SHADE_ARRIVED_MOST = 8 };
