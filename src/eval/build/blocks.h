@@ -168,10 +168,8 @@ bool pattern_solid_action(Block *block, const SchemaProperty *property, const As
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_fractal_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
-bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // Reports a word that has no meaning beside the pattern that there is, or beside none.
 bool pattern_allows(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
-bool pattern_map_body(Block *block) RT_MUST_CHECK;
 // What lies along a pattern of which nothing is said.
 const PatternMap *pattern_default_map(PatternType type);
 bool pattern_close(Block *block) RT_MUST_CHECK; // of a pigment or texture
@@ -187,8 +185,16 @@ bool block_begins_like_colour(Block *block, const AstNode *item);
 
 // Whether a pattern may stand here: it must be the first word.
 bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// Whether a pattern or a map may follow what there is: a texture that begins with an identifier takes no other.
+bool pattern_may_follow(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // A function and what it gives at a point.
 bool pattern_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+
+// pattern_map.c
+bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool pattern_map_body(Block *block) RT_MUST_CHECK;
+// The blocks or colours that follow a pattern such as `checker`, those that are not said by default: its map.
+bool pattern_read_blocks(Block *block, PatternType type, Span span) RT_MUST_CHECK;
 
 // warp.c
 bool warp_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;

@@ -1,0 +1,264 @@
+// Placing what cuts shapes with one another: groups and clipped shapes become composites, trees of nodes over parts.
+//
+// SPDX-License-Identifier: MIT
+#include "eval/build/place.h"
+
+#include "scene/part.h"
+#include "scene/primitive.h"
+
+// Where a part of a composite goes.
+typedef struct Branch {
+    Placement placement;
+    uint32_t parent; // node
+    uint32_t body;   // Part.body
+    bool is_inverse; // one of those that a difference takes away
+    bool was_turned; // as of an object: it, or a group around it
+    bool is_unseen;
+    bool is_in_merge;
+    bool is_in_box; // a member of a union or merge of which POV-Ray sees what is in its box
+} Branch;
+
+// ---- clips
+
+// True when a clip is a box or plane that all of the shape is inside of, so that it clips nothing.
+static bool clip_is_idle(Eval *ev, const Clip *clip, const Transform *outer, const Part *shape)
+{
+    const ObjectPart *common = clip->object;
+    Part part;
+    if ((clip->kind != KIND_BOX && clip->kind != KIND_PLANE) || common->is_inverse || common->clips) {
+        return false;
+    }
+    Transform whole = transform_compose(transform_compose(common->transform, clip->transform), *outer);
+    return shape_make(ev, clip->kind, clip->object, &whole, false, &part) == SHAPE_MADE && part_contains(&part, shape);
+}
+
+bool place_clips_matter(Eval *ev, const ClipChain *chain, const Part *shape)
+{
+    for (; chain; chain = chain->next) {
+        for (const Clip *clip = chain->clips; clip; clip = clip->next) {
+            if (!shape || !clip_is_idle(ev, clip, chain->outer, shape)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// ---- nodes and leaves
+
+static bool add_node(Eval *ev, NodeOp op, bool is_inverse, const Branch *branch, Span span, uint32_t *index)
+{
+    const Composite *composite = &ev->scene->composites.items[ev->scene->composites.count - 1];
+    if (ev->scene->nodes.count - composite->first_node >= COMPOSITE_NODES_MOST) {
+        return eval_fault(ev, DIAG_E0363, span, "more than %d groups and empty shapes are cut with one another",
+                          COMPOSITE_NODES_MOST);
+    }
+    if (!scene_add_node(ev->scene, op, is_inverse, branch->parent, span.begin, index)) {
+        return eval_no_memory(ev, span);
+    }
+    ev->scene->nodes.items[*index].body = branch->body;
+    return true;
+}
+
+static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *branch);
+
+static bool grow_clips(Eval *ev, const ClipChain *chain, const Part *shape, const Branch *object_branch, uint32_t node)
+{
+    Scene *scene = ev->scene;
+    for (; chain; chain = chain->next) {
+        if (chain->clips_all && scene->nodes.items[node].parent == NODE_NONE) {
+            scene->composites.items[scene->composites.count - 1].start_clips = scene->nodes.items[node].child_count;
+        }
+        for (const Clip *clip = chain->clips; clip; clip = clip->next) {
+            if (shape && clip_is_idle(ev, clip, chain->outer, shape)) {
+                continue;
+            }
+            Branch branch = *object_branch;
+            branch.parent = node;
+            branch.is_inverse = false;
+            branch.is_unseen = true;
+            branch.placement.clips = NULL;
+            branch.placement.outer = transform_compose(clip->transform, *chain->outer);
+            if (!grow(ev, clip->kind, clip->object, &branch)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// A sphere of radius 0 is an empty union: nothing is inside of it. With any other shape without extent POV-Ray draws
+// nothing of the whole.
+static bool grow_nothing(Eval *ev, SchemaKind kind, const ObjectPart *part, const Branch *branch)
+{
+    uint32_t node;
+    if (kind != KIND_SPHERE) {
+        return eval_fault(ev, DIAG_E0364, part->span, "a %s without extent cannot be cut with other shapes",
+                          schema_kind(kind)->word);
+    }
+    return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch, part->span, &node);
+}
+
+// Intervals of a line in all parts of a composite: of a stack of STACK_BYTES they take half.
+enum { COMPOSITE_INTERVALS_MOST = 2 * COMPOSITE_PARTS_MOST };
+
+// Whether a ray has room for one more part. Those whose intervals are few are held by their number.
+static bool has_stack(const Scene *scene, const Composite *composite, const Part *part)
+{
+    uint64_t sum = primitive_intervals(part);
+    for (size_t i = composite->first_part; sum > 2 && i < scene->parts.count; i++) {
+        sum += primitive_intervals(&scene->parts.items[i]);
+    }
+    return sum <= COMPOSITE_INTERVALS_MOST;
+}
+
+static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
+{
+    const ObjectPart *common = object;
+    const Placement *around = &branch->placement;
+    const Composite *composite = &ev->scene->composites.items[ev->scene->composites.count - 1];
+    Part part;
+    if (branch->is_in_box && box_is_inside_out(kind, object)) {
+        return box_fault(ev, common->span);
+    }
+    if (kind == KIND_BICUBIC_PATCH) {
+        return eval_fault(ev, DIAG_E0362, common->span,
+                          "a bicubic_patch has no inside, and POV-Ray does not clip it: nothing can be cut with it");
+    }
+    ShapeResult result = shape_make(ev, kind, object, &around->outer, false, &part);
+    if (result != SHAPE_MADE) {
+        return result == SHAPE_NOTHING && grow_nothing(ev, kind, common, branch);
+    }
+    // Flat ones may be clipped, which is their first node then.
+    const Node *parent = &ev->scene->nodes.items[branch->parent];
+    bool is_clipped_alone = parent->op == NODE_CLIP && parent->child_count == 0 && parent->parent == NODE_NONE;
+    if (primitive_is_flat(part.kind) && !is_clipped_alone) {
+        return eval_fault(ev, DIAG_E0362, common->span, "a %s has no inside, so nothing can be cut with it",
+                          primitive_class(primitive_class(part.kind)->surface)->word);
+    }
+    if (ev->scene->parts.count - composite->first_part >= COMPOSITE_PARTS_MOST) {
+        return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
+                          COMPOSITE_PARTS_MOST);
+    }
+    if (part.kind == PART_ISOSURFACE && !isosurface_place(ev, object, &part)) {
+        return false;
+    }
+    if (!has_stack(ev->scene, composite, &part)) {
+        return eval_fault(ev, DIAG_E0363, common->span,
+                          "a line may cross the shapes that are cut here more than %d times",
+                          2 * COMPOSITE_INTERVALS_MOST);
+    }
+    part.node = branch->parent;
+    part.body = branch->body;
+    part.flags |= (common->is_inverse != branch->is_inverse ? PART_INVERSE : 0) | (branch->is_unseen ? PART_UNSEEN : 0);
+    if (!place_may_add(ev, common->span) ||
+        (!branch->is_unseen && !place_material(ev, object, &part, around, branch->body, &part.material)) ||
+        (!branch->is_unseen && primitive_class(part.kind)->is_mesh &&
+         !place_face_materials(ev, object, around, &part))) {
+        return false;
+    }
+    return scene_add_leaf(ev->scene, &part) || eval_no_memory(ev, common->span);
+}
+
+static bool grow_members(Eval *ev, SchemaKind kind, const UnionDesc *group, const Branch *outer, NodeOp op)
+{
+    Branch branch = *outer;
+    branch.is_inverse = false;
+    branch.is_in_merge = op == NODE_MERGE || (op == NODE_UNION && outer->is_in_merge);
+    branch.is_in_box = op != NODE_INTERSECTION && (group->part.is_inverse || !outer->is_inverse);
+    branch.was_turned |= outer->is_inverse || group->part.was_turned;
+    // A union that was once turned inside out has lost what is inside of it. Measured.
+    op = op == NODE_UNION && branch.was_turned ? NODE_MERGE : op;
+    if (!add_node(ev, op, group->part.is_inverse != outer->is_inverse, outer, group->part.span, &branch.parent)) {
+        return false;
+    }
+    bool is_fine = true;
+    for (const UnionMember *member = group->members; member && !ev->stop; member = member->next) {
+        is_fine = grow(ev, member->kind, member->object, &branch) && is_fine;
+        branch.is_inverse = kind == KIND_DIFFERENCE;
+    }
+    Node *node = is_fine ? &ev->scene->nodes.items[branch.parent] : NULL;
+    if (node && node->child_count == 0 && op == NODE_MERGE && outer->parent != NODE_NONE) {
+        node->op = NODE_UNION; // as what takes the place of a shape that is nothing, so that dumps read back the same
+    }
+    return is_fine;
+}
+
+// The object without the clips around it.
+static bool grow_object(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
+{
+    switch (kind) {
+    case KIND_UNION: return grow_members(ev, kind, object, branch, NODE_UNION);
+    case KIND_MERGE: return grow_members(ev, kind, object, branch, NODE_MERGE);
+    case KIND_INTERSECTION:
+    case KIND_DIFFERENCE: return grow_members(ev, kind, object, branch, NODE_INTERSECTION);
+    default: return grow_leaf(ev, kind, object, branch);
+    }
+}
+
+bool place_has_no_look(Eval *ev, const LightDesc *light)
+{
+    return !light->look || eval_fault(ev, DIAG_E0251, light->part.span,
+                                      "`looks_like` among shapes that are cut is not supported by rtlang");
+}
+
+// Recursive, as `place` is.
+static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *outer)
+{
+    if (kind == KIND_LIGHT_SOURCE) {
+        return light_place(ev, object, &outer->placement.outer) && place_has_no_look(ev, object);
+    }
+    const ObjectPart *part = object;
+    Branch branch = *outer;
+    if (outer->is_in_merge && place_hidden(part)) {
+        return eval_fault(ev, DIAG_E0365, part->span,
+                          "a member of a merge that some rays do not see is not supported by rtlang");
+    }
+    ClipChain own = {outer->placement.clips, part->clips, &outer->placement.outer, !outer->placement.whole};
+    const ClipChain *clips = part->clips ? &own : outer->placement.clips;
+    branch.placement.clips = NULL;
+    branch.placement.outer = transform_compose(part->transform, outer->placement.outer);
+    if (part->texture) {
+        branch.placement.texture = part->texture;
+        branch.placement.texture_outer = outer->placement.outer;
+    }
+    branch.placement.interior = part->interior ? part->interior : outer->placement.interior;
+    if (part->interior && outer->parent != NODE_NONE) {
+        branch.body = ++ev->scene->inner_body_count;
+    }
+    branch.placement.is_inner = true;
+    branch.placement.is_hollow = outer->placement.is_inner ? outer->placement.is_hollow : place_is_hollow(kind, object);
+    if (!clips) {
+        return grow_object(ev, kind, object, &branch);
+    }
+    Part shape;
+    // A clip is not turned round with what it clips: what is outside of a shape reaches beyond any clip.
+    bool is_known = !object_is_group(kind) && kind != KIND_BICUBIC_PATCH && part->is_inverse == branch.is_inverse &&
+                    shape_make(ev, kind, object, &branch.placement.outer, false, &shape) == SHAPE_MADE;
+    const Part *known = is_known ? &shape : NULL;
+    if (!place_clips_matter(ev, clips, known)) {
+        return grow_object(ev, kind, object, &branch);
+    }
+    uint32_t node;
+    if (!add_node(ev, NODE_CLIP, false, &branch, part->span, &node)) {
+        return false;
+    }
+    branch.parent = node;
+    return grow_object(ev, kind, object, &branch) && grow_clips(ev, clips, known, &branch, node);
+}
+
+bool place_composite(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner)
+{
+    const ObjectPart *part = object;
+    Branch root = {.placement = *outer, .parent = NODE_NONE};
+    root.placement.body = inner->body;
+    if (!place_may_add(ev, part->span)) {
+        return false;
+    }
+    if (!scene_begin_composite(ev->scene, inner->hidden, part->span.begin)) {
+        return eval_no_memory(ev, part->span);
+    }
+    bool is_grown = grow(ev, kind, object, &root);
+    scene_end_composite(ev->scene);
+    return is_grown;
+}
