@@ -12,7 +12,7 @@
 
 #include "scene/scene.h"
 #include "study/optional.h"
-#include "trace/query.h"
+#include "trace/query_surface.h"
 #include "unit/random.h"
 
 #ifdef WITH_EMBREE
