@@ -41,19 +41,21 @@ static inline void crossings_sort(Crossing *crossings, uint32_t count)
 }
 
 // The first crossing behind a start on the surface; `inward`: the ray is inside from there on. How many crossings lie
-// behind the start says whether its own is among them, which then is the first.
-static inline uint32_t crossings_first_behind(const Crossing *crossings, uint32_t count, bool *inward)
+// behind the start says whether its own is among them, which then is the first. `is_inside_end`: the line is inside
+// behind the last.
+static inline uint32_t crossings_first_behind(const Crossing *crossings, uint32_t count, bool is_inside_end,
+                                              bool *inward)
 {
     uint32_t first = 0;
     while (first < count && !(crossings[first].t > 0.0)) {
         first++;
     }
     bool is_odd = (count - first) & 1;
-    if (is_odd != *inward) {
+    if (is_odd != (*inward != is_inside_end)) {
         if (first < count) {
             first++;
         } else {
-            *inward = false;
+            *inward = is_inside_end;
         }
     }
     return first;
@@ -66,7 +68,7 @@ static inline unsigned crossings_intervals(Crossing *crossings, uint32_t count, 
     unsigned made = 0;
     bool is_start = left.side != SIDE_NONE, is_inside = is_start && left.inward;
     crossings_sort(crossings, count);
-    for (uint32_t i = is_start ? crossings_first_behind(crossings, count, &is_inside) : 0; i < count; i++) {
+    for (uint32_t i = is_start ? crossings_first_behind(crossings, count, false, &is_inside) : 0; i < count; i++) {
         if (is_inside) {
             own.leave = crossings[i].t;
             own.leave_side = crossings[i].side;

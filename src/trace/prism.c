@@ -11,40 +11,15 @@
 // SPDX-License-Identifier: MIT
 #include "trace/prism.h"
 
-#include <stdlib.h>
-
 #include "math/extreme.h"
+#include "trace/crossings.h"
 
 // The crossings of the wall in order, and whether the line is inside before the first and behind the last.
 typedef struct WallCrossings {
-    double *t;
+    Crossing *at;
     uint32_t count;
     bool is_inside;
 } WallCrossings;
-
-enum { SHORT_LIST = 32 };
-
-static int t_order(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void sort(double *t, uint32_t count)
-{
-    if (count > SHORT_LIST) {
-        qsort(t, count, sizeof *t, t_order);
-        return;
-    }
-    for (uint32_t i = 1; i < count; i++) {
-        double own = t[i];
-        uint32_t at = i;
-        for (; at > 0 && t[at - 1] > own; at--) {
-            t[at] = t[at - 1];
-        }
-        t[at] = own;
-    }
-}
 
 // The line's image, turned so that where it runs along an edge or through a corner these are on the side of it that
 // outline_holds has them on for its points.
@@ -64,7 +39,8 @@ static void wall_take(const Ray *ray, double square, const OutlinePoint *points,
 {
     Vec3 o = ray->origin, d = ray->direction;
     for (uint32_t i = 0; i < wall->count; i++) {
-        wall->t[i] = ((points[i].u - o.x) * d.x + (points[i].v - o.z) * d.z) / square;
+        double t = ((points[i].u - o.x) * d.x + (points[i].v - o.z) * d.z) / square;
+        wall->at[i] = (Crossing){t, PRISM_WALL};
     }
 }
 
@@ -104,7 +80,7 @@ static bool cross_between(const Numbers *outline, const Ray *ray, const RayInter
         if (fabs(t - slab->enter) <= room || fabs(t - slab->leave) <= room) {
             return false;
         }
-        wall->t[wall->count] = t;
+        wall->at[wall->count] = (Crossing){t, PRISM_WALL};
         wall->count += t > slab->enter && t < slab->leave;
     }
     bool is_inside_end = wall->is_inside != (bool)(wall->count & 1);
@@ -127,27 +103,10 @@ static void cross_conic(const Numbers *outline, const Ray *ray, OutlinePoint *po
         double from2 = from_x * from_x + from_z * from_z, by2 = by_x * by_x + by_z * by_z;
         double along = from_x * by_x + from_z * by_z; // the longer one of the two has the direction of both
         double t = by2 >= from2 ? along / by2 : from2 / along;
-        wall->t[i] = isnan(t) ? (double)INFINITY : t; // it never comes to its end
-        wall->is_inside = wall->is_inside != (d.y != 0.0 && wall->t[i] > t_tip);
+        t = isnan(t) ? (double)INFINITY : t; // it never comes to its end
+        wall->at[i] = (Crossing){t, PRISM_WALL};
+        wall->is_inside = wall->is_inside != (d.y != 0.0 && t > t_tip);
     }
-}
-
-// The place of the first crossing behind a start on the wall; `inward`: the ray is inside of it from there on.
-static uint32_t crossings_after_start(const WallCrossings *wall, bool *inward)
-{
-    uint32_t first = 0;
-    while (first < wall->count && !(wall->t[first] > 0.0)) {
-        first++;
-    }
-    bool is_odd = (wall->count - first) & 1;
-    if (is_odd != (*inward != wall->is_inside)) {
-        if (first < wall->count) {
-            first++; // the start's own
-        } else {
-            *inward = wall->is_inside;
-        }
-    }
-    return first;
 }
 
 // Whether all between the ends is beyond one side of the bounds.
@@ -177,24 +136,25 @@ unsigned prism_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray 
         return 0;
     }
     uint32_t most = outline_crossings_most(outline);
-    double t[most];
+    Crossing at[most];
     OutlinePoint points[most];
-    WallCrossings wall = {.t = t};
+    WallCrossings wall = {.at = at};
     if (!is_between || !cross_between(outline, ray, &slab, points, &wall)) {
         wall.is_inside = false;
         wall.count = 0;
         (is_conic ? cross_conic : cross_straight)(outline, ray, points, &wall);
     }
-    sort(t, wall.count);
+    crossings_sort(at, wall.count);
     bool is_inside = wall.is_inside, is_start = left.side == PRISM_WALL && wall.count > 0;
     if (is_start) {
         is_inside = left.inward;
     }
     RayInterval own = INTERVAL_ALL;
-    for (uint32_t i = is_start ? crossings_after_start(&wall, &is_inside) : 0; i <= wall.count; i++) {
+    uint32_t first = is_start ? crossings_first_behind(at, wall.count, wall.is_inside, &is_inside) : 0;
+    for (uint32_t i = first; i <= wall.count; i++) {
         bool is_end = i == wall.count;
         if (is_inside) {
-            own.leave = is_end ? (double)INFINITY : t[i];
+            own.leave = is_end ? (double)INFINITY : at[i].t;
             own.leave_side = is_end ? SIDE_NONE : PRISM_WALL;
             RayInterval both = own;
             interval_meet(&both, &slab);
@@ -203,7 +163,7 @@ unsigned prism_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray 
             }
         }
         is_inside = !is_inside;
-        own.enter = is_end ? (double)INFINITY : t[i];
+        own.enter = is_end ? (double)INFINITY : at[i].t;
         own.enter_side = PRISM_WALL;
     }
     return count;

@@ -174,27 +174,28 @@ def check_kills(test, place, count):
     test.ok(named == killed, "a rank that dies ends the run with a message that names it", texts)
 
 
-def main():
+def run_checks(name, *checks):
+    """Each check in one place, or a line that says why none can be made."""
     test = tap.Tap()
     os.environ.update(ENVIRONMENT)
     random.seed(int(os.environ.get("SEED", "1")))
     why = has_module()
     if why:
-        test.skip("ranks of MPI", why.splitlines()[0])
-    elif len(sys.argv) > 2 and sys.argv[1] == "kills":
-        place = Place()
-        check_kills(test, place, int(sys.argv[2]))
-        place.close()
+        test.skip(name, why.splitlines()[0])
     else:
         place = Place()
-        check_pictures(test, place)
-        check_read_one(test, place)
-        check_error_map(test, place)
-        check_frames(test, place)
-        check_faults(test, place)
-        check_kills(test, place, 100 if LONG else 2)
+        for check in checks:
+            check(test, place)
         place.close()
     test.done()
+
+
+def main():
+    if len(sys.argv) > 2 and sys.argv[1] == "kills":
+        run_checks("ranks of MPI", lambda test, place: check_kills(test, place, int(sys.argv[2])))
+    else:
+        run_checks("ranks of MPI", check_pictures, check_read_one, check_error_map, check_frames, check_faults,
+                   lambda test, place: check_kills(test, place, 100 if LONG else 2))
 
 
 if __name__ == "__main__":

@@ -12,8 +12,7 @@ import sys
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import tap  # noqa: E402
-from check_ranks import ENVIRONMENT, has_module, of_ranks, ranks  # noqa: E402
+from check_ranks import ENVIRONMENT, of_ranks, ranks, run_checks  # noqa: E402
 from check_share import PROGRAM, Place  # noqa: E402
 
 LONG = "CHECK_LONG" in os.environ
@@ -171,24 +170,9 @@ def measure_memory(count, processes):
     place.close()
 
 
-def main():
-    test = tap.Tap()
+if len(sys.argv) > 3 and sys.argv[1] == "memory":
     os.environ.update(ENVIRONMENT)
     random.seed(int(os.environ.get("SEED", "1")))
-    if len(sys.argv) > 3 and sys.argv[1] == "memory":
-        measure_memory(int(sys.argv[2]), int(sys.argv[3]))
-        return
-    why = has_module()
-    if why:
-        test.skip("scenes that ranks share", why.splitlines()[0])
-    else:
-        place = Place()
-        check_pictures(test, place)
-        check_refused(test, place)
-        check_continued(test, place)
-        check_budget(test, place)
-        place.close()
-    test.done()
-
-
-main()
+    measure_memory(int(sys.argv[2]), int(sys.argv[3]))
+else:
+    run_checks("scenes that ranks share", check_pictures, check_refused, check_continued, check_budget)

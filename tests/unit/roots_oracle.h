@@ -119,8 +119,11 @@ static inline void find_roots(const OraclePolynomial *p, double bound, Roots *ro
     roots_fini(&turns);
 }
 
-// Whether no two roots, and no extremum and 0, are nearer than 26 digits of `scale`: then any class is as good.
-static inline bool is_decided(const OraclePolynomial *p, double bound, double scale)
+// What the terms of a polynomial come to at t, by size.
+typedef double (*OracleScale)(const void *client, double t);
+
+// Whether no extremum is nearer to 0 than 26 digits of `scale` there: else any class is as good.
+static inline bool is_decided(const OraclePolynomial *p, double bound, OracleScale scale, const void *client)
 {
     OraclePolynomial slope;
     Roots turns;
@@ -131,7 +134,8 @@ static inline bool is_decided(const OraclePolynomial *p, double bound, double sc
     find_roots(&slope, bound, &turns);
     for (int i = 0; i < turns.count; i++) {
         polynomial_at(p, turns.at[i], value);
-        decided = decided && !(fabs(mpfr_get_d(value, MPFR_RNDN)) < 1e-26 * scale);
+        double size = scale(client, mpfr_get_d(turns.at[i], MPFR_RNDN));
+        decided = decided && !(fabs(mpfr_get_d(value, MPFR_RNDN)) < 1e-26 * size);
     }
     polynomial_fini(&slope);
     roots_fini(&turns);

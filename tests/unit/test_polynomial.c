@@ -89,36 +89,22 @@ static double roots_bound(const OraclePolynomial *p)
     return 2.5 * most;
 }
 
+typedef struct SurfaceRay {
+    const Surface *surface;
+    const Ray *ray;
+} SurfaceRay;
+
 // The sum of the sizes of all terms at t.
-static double sizes_at(const Surface *surface, const Ray *ray, double t)
+static double sizes_at(const void *client, double t)
 {
+    const Surface *surface = ((const SurfaceRay *)client)->surface;
+    const Ray *ray = ((const SurfaceRay *)client)->ray;
     double reach = vec3_max_abs(ray->origin) + fabs(t) * vec3_max_abs(ray->direction), sum = 0.0;
     const double *sizes = polynomial_sizes(surface->list);
     for (unsigned i = surface->order + 1; i-- > 0;) {
         sum = sum * reach + sizes[i];
     }
     return sum;
-}
-
-// Whether no extremum is nearer to 0 than 26 digits of all terms: else any class is as good.
-static bool is_class_decided(const Surface *surface, const Ray *ray, const OraclePolynomial *p, double bound)
-{
-    OraclePolynomial slope;
-    Roots turns;
-    mpfr_t value;
-    bool decided = true;
-    mpfr_init2(value, BITS);
-    slope_init(&slope, p);
-    find_roots(&slope, bound, &turns);
-    for (int i = 0; i < turns.count; i++) {
-        polynomial_at(p, turns.at[i], value);
-        double sizes = sizes_at(surface, ray, mpfr_get_d(turns.at[i], MPFR_RNDN));
-        decided = decided && !(fabs(mpfr_get_d(value, MPFR_RNDN)) < 1e-26 * sizes);
-    }
-    polynomial_fini(&slope);
-    roots_fini(&turns);
-    mpfr_clear(value);
-    return decided;
 }
 
 typedef struct Outcome {
@@ -146,7 +132,7 @@ static void check(Surface *surface, const Ray *ray, Outcome *outcome)
     find_roots(&p, bound, &roots);
     outcome->rays++;
     if ((unsigned)roots.count != roots_count) {
-        bool decided = is_class_decided(surface, ray, &p, bound);
+        bool decided = is_decided(&p, bound, sizes_at, &(SurfaceRay){surface, ray});
         outcome->wrong += decided;
         outcome->undecided += !decided;
     }
