@@ -9,6 +9,7 @@
 #include "render/records/camera.h"
 #include "render/records/prepared.h"
 #include "render/sample/scratch.h"
+#include "render/shade/shade_tile_paths.h"
 #include "render/tile_first.h"
 
 _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");
@@ -58,7 +59,12 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
     counted.camera_rays += (uint64_t)__builtin_popcountll(wanted);
     bool is_view = camera->type == CAMERA_PERSPECTIVE && !places->lens;
     if (shade_tile_may(p, features)) {
-        shade_tile(p, features, is_view ? &view : NULL, places, streams, wanted, light, &scratch->tile, &counted);
+        TileShading shading; // not cleared as a whole
+        shading.scratch = &scratch->tile;
+        shading.streams = streams;
+        shading.light = light;
+        shading.statistics = &counted;
+        shade_tile(p, features, is_view ? &view : NULL, places, wanted, &shading);
     } else if (is_view) {
         trace_view(p, features, path, &view, places, streams, wanted, light, scratch, &counted);
     } else {

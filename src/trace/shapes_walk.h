@@ -153,7 +153,7 @@ static void span_refine(ShapeQuery *q, Foremost *first)
     }
 }
 
-// Refines a approximate root of a ball.
+// Refines an approximate root of a ball.
 static double ball_refine(const Solid *solid, const Ray *world, double t)
 {
     const SphereData unit = UNIT_SPHERE;

@@ -1,9 +1,8 @@
-// Light along the camera rays of a tile: the same as render/shade/shade.h gives ray by ray, bit for bit, with the
-// arithmetic of the first surface done for some rays at once.
+// The light of the surfaces that a tile's rays have met: the same as render/shade/shade_light.h gives point by point,
+// bit for bit, with the arithmetic done for some at once.
 //
-// For surfaces of one layer, and no interiors. What the rays that continue from them meet is the tile's next surfaces:
-// a ray is mirrored first, and what went through waits. Everything is always-inline and takes the kernel's features as
-// a constant.
+// For surfaces of one layer, and no interiors. Everything is always-inline and takes the kernel's features as a
+// constant.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SHADE_SHADE_TILE_H
@@ -11,7 +10,6 @@
 
 #include "math/extreme.h"
 #include "render/points/sampler_many.h"
-#include "render/records/camera.h"
 #include "render/shade/shade.h"
 #include "render/shade/tile_light.h"
 #include "render/shade/tile_pigments.h"
@@ -25,20 +23,6 @@ enum {
 // Rays of a tile that may wait while what is mirrored is followed; each is on a level of its own.
 enum { SHADE_WAITING_MOST = 12 };
 
-// Whether rays of a scene are shaded by tiles.
-RT_ALWAYS_INLINE bool shade_tile_may(const Prepared *p, unsigned features)
-{
-    unsigned both = RENDER_TRANSPARENCY | RENDER_REFLECTION;
-    bool may_wait = (features & both) == both && (p->features & both) == both;
-    return !(features & ~(unsigned)SHADE_TILE_FEATURES) && (!may_wait || p->max_trace_level <= SHADE_WAITING_MOST);
-}
-
-// Rays of a tile on their way: as in StackedRay.
-typedef struct TilePaths {
-    Rgb share[TILE_RAYS];
-    double weight[TILE_RAYS];
-} TilePaths;
-
 // A ray through a surface, which waits.
 typedef struct TileWaiting {
     Ray ray;
@@ -50,27 +34,37 @@ typedef struct TileWaiting {
     uint64_t passed;
 } TileWaiting;
 
-// The same rays where surfaces let light through.
-typedef struct TileClear {
-    Rgb through[TILE_RAYS]; // by the tile's surfaces: what is multiplied with what goes through
+// The rays of a tile on their way: as in StackedRay, and what waits of each.
+typedef struct TilePaths {
+    Rgb share[TILE_RAYS];
+    double weight[TILE_RAYS];
     int level[TILE_RAYS];
     uint64_t passed[TILE_RAYS];
+    Rgb through[TILE_RAYS]; // by the tile's surfaces, where they may let light through: what is multiplied with that
     uint64_t resting; // a bit for each ray: it continues with what waits
     int count[TILE_RAYS];
     TileWaiting waiting[SHADE_WAITING_MOST][TILE_RAYS];
-} TileClear;
+} TilePaths;
 
 // What is too large for a stack.
 typedef struct TileScratch {
     SphereTile rays;
     LightTile tile;
     TilePaths paths;
-    TileClear clear;
     TileCrossings crossings;
     // What a shadow ray is inside of at its start, where there are interiors: as of ShadingPoint.
     MediumTable *media;
     MediumStack before;
 } TileScratch;
+
+// What the rays of a tile are shaded with, and where their light goes.
+typedef struct TileShading {
+    TileScratch *scratch;
+    MaterialIndex material[TILE_RAYS]; // of the tile's surfaces
+    SampleStream *streams;             // NULL: area lights are grids
+    Rgb *light;                        // of each ray
+    RenderStatistics *statistics;
+} TileShading;
 
 // Materials, glow, and normals towards the viewer. `through` is set where something may be let through.
 RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, LightTile *tile,
@@ -331,358 +325,6 @@ RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, Ti
     }
     if (RT_UNLIKELY(p->has_dome)) {
         shade_tile_dome(p, features, scratch, streams, statistics);
-    }
-}
-
-// Adds what the surfaces shine; the first ones, which the camera sees, have all of it.
-RT_ALWAYS_INLINE void shade_tile_gather(const LightTile *tile, const TilePaths *paths, bool is_first, Rgb *light)
-{
-    for (int i = 0; i < tile->surfaces.count; i++) {
-        unsigned ray = tile->surfaces.ray[i];
-        Rgb own = rgb(tile->light[0][i], tile->light[1][i], tile->light[2][i]);
-        light[ray] = is_first ? rgb_add(rgb_grey(0.0), own) : rgb_add(light[ray], rgb_mul(paths->share[ray], own));
-    }
-}
-
-// Whether a surface mirrors its ray, at a level, and that is followed: then its share is what continues.
-RT_ALWAYS_INLINE bool shade_tile_mirrors(const Prepared *p, unsigned features, const LightTile *tile, int i, int level,
-                                         TilePaths *paths, RenderStatistics *statistics)
-{
-    unsigned ray = tile->surfaces.ray[i];
-    Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
-    ShadeMaterial material = {pigment, pigment, tile->finish[i]};
-    ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
-    ScatterRecord scatter = {.reflection_weight = 0.0};
-    if (!tile->finish[i]->reflects) {
-        return false;
-    }
-    shade_set_mirror(p, features, &material, &at, &scatter);
-    paths->share[ray] = rgb_mul(level == 1 ? rgb_grey(1.0) : paths->share[ray], scatter.reflectance);
-    paths->weight[ray] = (level == 1 ? 1.0 : paths->weight[ray]) * scatter.reflection_weight;
-    if (!shade_is_followed(p, level, paths->weight[ray])) {
-        shade_note_cut(p, level, paths->share[ray], statistics);
-        return false;
-    }
-    statistics->reflected_rays++;
-    return true;
-}
-
-// Takes what the mirrored rays meet for the tile's surfaces. Adds the light of those that meet nothing.
-RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, LightTile *tile,
-                                        MaterialIndex material[TILE_RAYS], TilePaths *paths, int level, Rgb *light,
-                                        RenderStatistics *statistics)
-{
-    TileSurfaces *surfaces = &tile->surfaces;
-    _Alignas(64) double mirrored[3][TILE_RAYS];
-    uint8_t own[TILE_RAYS]; // of the rays that continue, which of the tile's they are
-    SecondaryRays rays;
-    TileHits hits;
-    rays.count = 0;
-    rays.inward = 0;
-    for (int i = 0; i < surfaces->count; i++) {
-        if (shade_tile_mirrors(p, features, tile, i, level, paths, statistics)) {
-            if (rays.count == 0) {
-                p->tile_lights->mirror(tile, mirrored);
-            }
-            own[rays.count] = surfaces->ray[i];
-            secondary_ray_add(&rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i),
-                              surfaces->shape[i], surfaces->inside >> i & 1);
-        }
-    }
-    surfaces->count = 0;
-    if (rays.count == 0) {
-        return;
-    }
-    geometry_closest_secondary(p->geometry, features, HIDDEN_MIRROR, &rays, &hits);
-    for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
-        unsigned ray = own[__builtin_ctzll(missed)];
-        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], p->background));
-    }
-    if (hits.met) {
-        geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
-    }
-    for (int i = 0; i < surfaces->count; i++) {
-        surfaces->ray[i] = own[surfaces->ray[i]];
-    }
-}
-
-// Adds what the surfaces shine.
-RT_ALWAYS_INLINE void shade_tile_gather_clear(const LightTile *tile, const TilePaths *paths, Rgb *light)
-{
-    for (int i = 0; i < tile->surfaces.count; i++) {
-        unsigned ray = tile->surfaces.ray[i];
-        Rgb own = rgb(tile->light[0][i], tile->light[1][i], tile->light[2][i]);
-        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], own));
-    }
-}
-
-// What a surface sends on: shade_plain says the same of single rays.
-RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(const Prepared *p, unsigned features, const LightTile *tile,
-                                                    const TileClear *clear, int i)
-{
-    ScatterRecord scatter = {.through = clear->through[i],
-                             .reflectance = rgb_grey(0.0),
-                             .reflection_exponent = 1.0,
-                             .part = 1.0,
-                             .refraction = tile->finish[i]->refraction,
-                             .conserves_energy = tile->finish[i]->conserves_energy};
-    if ((features & RENDER_REFLECTION) && tile->finish[i]->reflects) {
-        Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
-        ShadeMaterial material = {pigment, pigment, tile->finish[i]};
-        ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
-        shade_set_mirror(p, features, &material, &at, &scatter);
-    }
-    return scatter;
-}
-
-// Whether light continues through a surface: then as what waits.
-RT_ALWAYS_INLINE bool shade_tile_passes(const Prepared *p, const LightTile *tile, const TilePaths *paths,
-                                        const TileClear *clear, int i, const ScatterRecord *scatter,
-                                        TileWaiting *through, RenderStatistics *statistics)
-{
-    const TileSurfaces *surfaces = &tile->surfaces;
-    unsigned ray = surfaces->ray[i];
-    Rgb share;
-    if (rgb_is_black(shade_sent_through(scatter))) {
-        return false;
-    }
-    if (!shade_goes_on(p, scatter, paths->weight[ray], clear->level[ray], clear->passed[ray], &share,
-                       &through->weight)) {
-        shade_note_cut(p, clear->level[ray], rgb_mul(paths->share[ray], shade_sent_through(scatter)), statistics);
-        return false;
-    }
-    through->ray = (Ray){tile_surface_point(surfaces, i), lane_get(surfaces->direction, (unsigned)i)};
-    through->start = surfaces->shape[i];
-    through->inward = !(surfaces->inside >> i & 1);
-    through->share = rgb_mul(paths->share[ray], share);
-    through->level = clear->level[ray];
-    through->passed = clear->passed[ray] + 1;
-    statistics->transmitted_rays++;
-    return true;
-}
-
-// Whether a surface mirrors its ray and that is followed: then its share and weight are those of what continues.
-RT_ALWAYS_INLINE bool shade_tile_reflects(const Prepared *p, unsigned ray, const ScatterRecord *scatter,
-                                          TilePaths *paths, TileClear *clear, RenderStatistics *statistics)
-{
-    if (scatter->reflection_weight == 0.0) {
-        return false;
-    }
-    Rgb share = rgb_mul(paths->share[ray], scatter->reflectance);
-    double weight = paths->weight[ray] * scatter->reflection_weight;
-    if (!shade_is_followed(p, clear->level[ray], weight)) {
-        shade_note_cut(p, clear->level[ray], share, statistics);
-        return false;
-    }
-    paths->share[ray] = share;
-    paths->weight[ray] = weight;
-    clear->level[ray]++;
-    clear->passed[ray] = 0;
-    statistics->reflected_rays++;
-    return true;
-}
-
-// A ray that goes through a surface now.
-RT_ALWAYS_INLINE void shade_tile_resume(const TileWaiting *through, unsigned ray, TilePaths *paths, TileClear *clear,
-                                        SecondaryRays *rays)
-{
-    paths->share[ray] = through->share;
-    paths->weight[ray] = through->weight;
-    clear->level[ray] = through->level;
-    clear->passed[ray] = through->passed;
-    secondary_ray_add(rays, through->ray.origin, through->ray.direction, through->start, through->inward);
-}
-
-// The rays that continue from the tile's surfaces, and of those that meet nothing more, what waited last; `own` says
-// which of the tile's they are.
-RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, const LightTile *tile, TilePaths *paths,
-                                      TileClear *clear, SecondaryRays *rays, uint8_t own[TILE_RAYS],
-                                      RenderStatistics *statistics)
-{
-    const TileSurfaces *surfaces = &tile->surfaces;
-    _Alignas(64) double mirrored[3][TILE_RAYS];
-    bool has_mirrored = false;
-    for (int i = 0; i < surfaces->count; i++) {
-        unsigned ray = surfaces->ray[i];
-        TileWaiting through;
-        ScatterRecord scatter = shade_tile_secondary(p, features, tile, clear, i);
-        bool passes = shade_tile_passes(p, tile, paths, clear, i, &scatter, &through, statistics);
-        own[rays->count] = (uint8_t)ray;
-        if ((features & RENDER_REFLECTION) && shade_tile_reflects(p, ray, &scatter, paths, clear, statistics)) {
-            if (!has_mirrored) {
-                p->tile_lights->mirror(tile, mirrored);
-                has_mirrored = true;
-            }
-            if (passes) {
-                clear->waiting[clear->count[ray]++][ray] = through;
-            }
-            secondary_ray_add(rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i),
-                              surfaces->shape[i], surfaces->inside >> i & 1);
-        } else if (passes) {
-            shade_tile_resume(&through, ray, paths, clear, rays);
-        } else {
-            clear->resting |= UINT64_C(1) << ray;
-        }
-    }
-    for (; (features & RENDER_REFLECTION) && clear->resting; clear->resting &= clear->resting - 1) {
-        unsigned ray = (unsigned)__builtin_ctzll(clear->resting);
-        if (clear->count[ray] > 0) {
-            own[rays->count] = (uint8_t)ray;
-            shade_tile_resume(&clear->waiting[--clear->count[ray]][ray], ray, paths, clear, rays);
-        }
-    }
-}
-
-// Takes what the rays that continue meet for the tile's surfaces. Adds the light of those that meet nothing. False when
-// none continues.
-RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, LightTile *tile,
-                                      MaterialIndex material[TILE_RAYS], TilePaths *paths, TileClear *clear, Rgb *light,
-                                      RenderStatistics *statistics)
-{
-    TileSurfaces *surfaces = &tile->surfaces;
-    uint8_t own[TILE_RAYS];
-    SecondaryRays rays;
-    TileHits hits;
-    rays.count = 0;
-    rays.inward = 0;
-    shade_tile_send(p, features, tile, paths, clear, &rays, own, statistics);
-    surfaces->count = 0;
-    if (rays.count == 0) {
-        return false;
-    }
-    geometry_closest_secondary(p->geometry, features, HIDDEN_MIRROR, &rays, &hits);
-    clear->resting = 0;
-    for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
-        unsigned ray = own[__builtin_ctzll(missed)];
-        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], p->background));
-        clear->resting |= UINT64_C(1) << ray;
-    }
-    if (hits.met) {
-        geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
-    }
-    for (int i = 0; i < surfaces->count; i++) {
-        surfaces->ray[i] = own[surfaces->ray[i]];
-    }
-    return true;
-}
-
-// The light of what the rays have met where surfaces let light through, and of all that continues from there.
-RT_ALWAYS_INLINE void shade_tile_clear(const Prepared *p, unsigned features, TileScratch *scratch,
-                                       MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
-                                       RenderStatistics *statistics)
-{
-    LightTile *tile = &scratch->tile;
-    TilePaths *paths = &scratch->paths;
-    TileClear *clear = &scratch->clear;
-    clear->resting = 0;
-    for (int i = 0; i < tile->surfaces.count; i++) {
-        unsigned ray = tile->surfaces.ray[i];
-        light[ray] = rgb_grey(0.0);
-        paths->share[ray] = rgb_grey(1.0);
-        paths->weight[ray] = 1.0;
-        clear->level[ray] = 1;
-        clear->passed[ray] = 0;
-        clear->count[ray] = 0;
-    }
-    do {
-        if (tile->surfaces.count > 0) {
-            shade_tile_begin(p, features, tile, material, clear->through);
-            shade_tile_lights(p, features, scratch, streams, statistics);
-            shade_tile_gather_clear(tile, paths, light);
-        }
-    } while (shade_tile_next(p, features, tile, material, paths, clear, light, statistics));
-}
-
-// The light of what the rays have met, and of what mirrors show.
-RT_ALWAYS_INLINE void shade_tile_paths(const Prepared *p, unsigned features, TileScratch *scratch,
-                                       MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
-                                       RenderStatistics *statistics)
-{
-    LightTile *tile = &scratch->tile;
-    TilePaths *paths = &scratch->paths;
-    for (int level = 1; tile->surfaces.count > 0; level++) {
-        shade_tile_begin(p, features, tile, material, NULL);
-        shade_tile_lights(p, features, scratch, streams, statistics);
-        shade_tile_gather(tile, paths, level == 1, light);
-        if (!(features & RENDER_REFLECTION)) {
-            return;
-        }
-        shade_tile_bounce(p, features, tile, material, paths, level, light, statistics);
-    }
-}
-
-// What rays of a view meet; false when nothing.
-RT_ALWAYS_INLINE bool shade_tile_view(const Prepared *p, unsigned features, const TileView *view,
-                                      const KernelPlaces *places, uint64_t wanted, Rgb *light, TileScratch *scratch,
-                                      MaterialIndex material[TILE_RAYS])
-{
-    SphereTile *rays = &scratch->rays;
-    TileHits hits;
-    Rgb background = rgb_add(rgb_grey(0.0), p->background);
-    for (int i = 0; i < TILE_RAYS; i++) {
-        light[i] = background;
-    }
-    if (geometry_view_passes(p->geometry, features, view, places->u, places->v)) {
-        return false;
-    }
-    geometry_closest_view(p->geometry, features, view, places->u, places->v, rays, &hits);
-    uint64_t met = hits.met & wanted;
-    if (!met) {
-        return false;
-    }
-    geometry_tile_surfaces(p->geometry, features, rays, &hits, met, &scratch->tile.surfaces, material);
-    return true;
-}
-
-// What rays of other cameras meet, each of which starts at a place of its own; false when nothing.
-RT_ALWAYS_INLINE bool shade_tile_apart(const Prepared *p, unsigned features, const KernelPlaces *places,
-                                       uint64_t wanted, Rgb *light, TileScratch *scratch,
-                                       MaterialIndex material[TILE_RAYS])
-{
-    TileSurfaces *surfaces = &scratch->tile.surfaces;
-    uint8_t own[TILE_RAYS];
-    SecondaryRays rays;
-    TileHits hits;
-    rays.count = 0;
-    rays.inward = 0;
-    for (; wanted; wanted &= wanted - 1) {
-        int i = __builtin_ctzll(wanted);
-        Ray ray;
-        bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
-        light[i] = is_seen ? rgb_add(rgb_grey(0.0), p->background) : rgb_grey(0.0);
-        if (is_seen) {
-            own[rays.count] = (uint8_t)i;
-            secondary_ray_add(&rays, ray.origin, ray.direction, SHAPE_NONE, false);
-        }
-    }
-    if (rays.count == 0) {
-        return false;
-    }
-    geometry_closest_secondary(p->geometry, features, HIDDEN_CAMERA, &rays, &hits);
-    if (!hits.met) {
-        return false;
-    }
-    geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
-    for (int i = 0; i < surfaces->count; i++) {
-        surfaces->ray[i] = own[surfaces->ray[i]];
-    }
-    return true;
-}
-
-// The light of camera rays. `view`: of a perspective camera without a lens; NULL: of another one.
-RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const TileView *view, const KernelPlaces *places,
-                                 SampleStream *streams, uint64_t wanted, Rgb *light, TileScratch *scratch,
-                                 RenderStatistics *statistics)
-{
-    MaterialIndex material[TILE_RAYS];
-    if (view ? !shade_tile_view(p, features, view, places, wanted, light, scratch, material)
-             : !shade_tile_apart(p, features, places, wanted, light, scratch, material)) {
-        return;
-    }
-    if (features & RENDER_TRANSPARENCY) {
-        shade_tile_clear(p, features, scratch, material, streams, light, statistics);
-    } else {
-        shade_tile_paths(p, features, scratch, material, streams, light, statistics);
     }
 }
 
