@@ -42,13 +42,6 @@ RT_ALWAYS_INLINE StartSphere query_start_sphere(const Geometry *g, unsigned feat
     return on;
 }
 
-// Whether one after the other is faster than a block at once, or a tree.
-RT_ALWAYS_INLINE bool query_spheres_are_few(const Geometry *g, unsigned features)
-{
-    enum { FEW = 2 };
-    return g->spheres.loose_count <= FEW && !((features & TRACE_SPHERE_BVH) && g->spheres.bvh.nodes);
-}
-
 RT_ALWAYS_INLINE void query_spheres_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
                                             Nearest *nearest)
 {
@@ -57,14 +50,7 @@ RT_ALWAYS_INLINE void query_spheres_closest(const Geometry *g, unsigned features
         nearest_offer(nearest, sphere_root_inward(ray, &on.ball), shape_id(SHAPE_SPHERE, on.slot), true,
                       g->spheres.info[on.slot].order);
     }
-    if (query_spheres_are_few(g, features)) {
-        for (uint32_t i = 0; i < g->spheres.loose_count; i++) {
-            sphere_slot_closest(&g->spheres, i, ray, &on.ball, nearest);
-        }
-        nearest_settle(&g->spheres, ray, nearest);
-    } else {
-        g->kernels->closest(&g->spheres, ray, on.slot, nearest);
-    }
+    g->kernels->closest(&g->spheres, ray, on.slot, nearest);
 }
 
 RT_ALWAYS_INLINE bool query_spheres_occluded(const Geometry *g, unsigned features, const SphereRay *ray,
@@ -77,15 +63,7 @@ RT_ALWAYS_INLINE bool query_spheres_occluded(const Geometry *g, unsigned feature
             return true;
         }
     }
-    if (!query_spheres_are_few(g, features)) {
-        return g->kernels->occluded(&g->spheres, ray, on.slot, t_max);
-    }
-    for (uint32_t i = 0; i < g->spheres.loose_count; i++) {
-        if (sphere_slot_occludes(&g->spheres, i, ray, &on.ball, t_max)) {
-            return true;
-        }
-    }
-    return false;
+    return g->kernels->occluded(&g->spheres, ray, on.slot, t_max);
 }
 
 // Whether the ray starts on another surface that a plane may coincide with but for rounding. It has passed what lies

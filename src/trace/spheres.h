@@ -302,7 +302,7 @@ RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, b
     }
 }
 
-// Refines a approximate root.
+// Refines an approximate root.
 RT_ALWAYS_INLINE void nearest_settle(const SphereTable *table, const SphereRay *ray, Nearest *nearest)
 {
     if (nearest->is_approximate) {
@@ -359,29 +359,12 @@ RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const Spher
     }
 }
 
-// One sphere against the ray, for the nearest hit.
-RT_ALWAYS_INLINE void sphere_slot_closest(const SphereTable *table, uint32_t slot, const SphereRay *ray,
-                                          const SphereData *start, Nearest *nearest)
-{
-    SphereData ball = sphere_table_ball(table, slot);
-    double t;
-    bool inside;
-    SphereVerdict verdict = sphere_test(ray, &ball, &t, &inside);
-    if (verdict == SPHERE_MISS || sphere_data_equal(&ball, start)) {
-        return;
-    }
-    if (verdict == SPHERE_UNCERTAIN) {
-        t = sphere_exact(ray, &ball, start, &inside);
-    }
-    nearest_offer_sphere(table, ray, slot, &ball, t, inside, verdict == SPHERE_MET, nearest);
-}
-
 RT_SELDOM bool sphere_refined_is_before(const SphereRay *ray, const SphereData *ball, double t, double t_max)
 {
     return sphere_refine(ray, ball, t) < t_max;
 }
 
-// Whether a approximate root is before t_max once it is refined.
+// Whether an approximate root is before t_max once it is refined.
 RT_ALWAYS_INLINE bool sphere_root_is_before(const SphereRay *ray, const SphereData *ball, double t, double t_max)
 {
     double slack = SPHERE_ROOT_SLACK * t_max;
@@ -389,24 +372,6 @@ RT_ALWAYS_INLINE bool sphere_root_is_before(const SphereRay *ray, const SphereDa
         return true;
     }
     return t <= t_max + slack && sphere_refined_is_before(ray, ball, t, t_max);
-}
-
-// One sphere against the ray, for any hit.
-RT_ALWAYS_INLINE bool sphere_slot_occludes(const SphereTable *table, uint32_t slot, const SphereRay *ray,
-                                           const SphereData *start, double t_max)
-{
-    SphereData ball = sphere_table_ball(table, slot);
-    double t;
-    bool inside;
-    SphereVerdict verdict = sphere_test(ray, &ball, &t, &inside);
-    if (verdict == SPHERE_MISS || sphere_data_equal(&ball, start)) {
-        return false;
-    }
-    if (verdict == SPHERE_UNCERTAIN) {
-        t = sphere_exact(ray, &ball, start, &inside);
-        return t > 0.0 && t < t_max;
-    }
-    return sphere_root_is_before(ray, &ball, t, t_max);
 }
 
 #endif

@@ -9,28 +9,12 @@
 #include "scene/description.h"
 #include "scene/form.h"
 
-// The last finish of nothing but words and numbers: what was said, and what it made of the finish before it.
-typedef struct FinishWord {
-    double number; // of a number; 0: a word
-    Symbol word;   // SYMBOL_NONE: a number
-    unsigned flags;
-} FinishWord;
-enum { FINISH_WORDS_MOST = 32 };
-typedef struct FinishMemo {
-    FinishWord words[FINISH_WORDS_MOST];
-    unsigned count; // 0: nothing is known
-    double version; // of the language
-    Finish before, after;
-    double ior_before, ior_after;
-} FinishMemo;
-
 struct ObjectState {
     uint8_t kinds[WORD_COUNT];                  // SchemaKind that a word begins
     uint8_t properties[KIND_COUNT][WORD_COUNT]; // place in the kind's properties + 1
     uint8_t advice[WORD_COUNT];                 // place among the unsupported words + 1
     bool is_told[WORD_COUNT];                   // that rtlang has not this word
     const TextureDesc *defaults;                // of #default
-    FinishMemo finish;
     const SkySphereDesc *sky; // the last one so far, in the program's memory; NULL: none
     Span sky_span;
     uint32_t groups;       // unions so far that say what their members are filled with

@@ -147,35 +147,7 @@ static bool read_normal(Eval *ev, const AstNode *item, Arena *arena, TextureDesc
     return true;
 }
 
-// What a finish says, when it is words and numbers; 0: it is not.
-static unsigned finish_words(const AstNode *item, FinishWord *words)
-{
-    unsigned count = 0;
-    for (const AstNode *node = item->a; node; node = node->next) {
-        bool is_word = node->kind == AST_WORD && word_class(node->symbol) == WORD_PLAIN;
-        if (count == FINISH_WORDS_MOST || (!is_word && node->kind != AST_NUMBER)) {
-            return 0;
-        }
-        words[count++] = (FinishWord){is_word ? 0.0 : node->number, is_word ? node->symbol : SYMBOL_NONE, node->flags};
-    }
-    return count;
-}
-
-static bool finish_is_known(const Eval *ev, const TextureDesc *texture, const FinishWord *words, unsigned count)
-{
-    const FinishMemo *memo = &ev->objects->finish;
-    bool is_same = count > 0 && count == memo->count && numbers_equal(ev->version, memo->version) &&
-                   memcmp(&texture->ior, &memo->ior_before, sizeof texture->ior) == 0 &&
-                   memcmp(&texture->finish, &memo->before, sizeof memo->before) == 0;
-    for (unsigned i = 0; is_same && i < count; i++) {
-        const FinishWord *one = &words[i], *other = &memo->words[i];
-        is_same = one->word == other->word && one->flags == other->flags &&
-                  memcmp(&one->number, &other->number, sizeof one->number) == 0;
-    }
-    return is_same;
-}
-
-static bool read_new_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
+static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
 {
     Desc record;
     SchemaKind is;
@@ -188,36 +160,6 @@ static bool read_new_finish(Eval *ev, const AstNode *item, Arena *arena, Texture
     }
     texture->finish = record.finish.finish;
     texture->ior = record.finish.ior;
-    return true;
-}
-
-// Programs write the same finish again and again: it is computed once, unless there was something to say about it.
-static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
-{
-    FinishMemo *memo = &ev->objects->finish;
-    FinishWord words[FINISH_WORDS_MOST];
-    unsigned count = finish_words(item, words);
-    if (!ev->options.no_literals && finish_is_known(ev, texture, words, count)) {
-        texture->finish = memo->after;
-        texture->ior = memo->ior_after;
-        return true;
-    }
-    size_t messages = ev->options.diags->error_count + ev->options.diags->warning_count;
-    Finish before = texture->finish;
-    double ior_before = texture->ior;
-    if (!read_new_finish(ev, item, arena, texture)) {
-        return false;
-    }
-    bool is_silent = ev->options.diags->error_count + ev->options.diags->warning_count == messages;
-    if (count > 0 && is_silent && !ev->objects->deferred) {
-        memcpy(memo->words, words, count * sizeof *words);
-        memo->count = count;
-        memo->version = ev->version;
-        memo->before = before;
-        memo->after = texture->finish;
-        memo->ior_before = ior_before;
-        memo->ior_after = texture->ior;
-    }
     return true;
 }
 
