@@ -210,13 +210,10 @@ void grammar_fragment_token(GrammarState *state, Token *token)
         // What follows a declaration may be anything, but for a second semicolon.
         bool is_past_end = state->fragment == TOKEN_START_DIRECTIVE && state->previous.kind == ';' &&
                            state->openers.count == 0 && token->kind != ';';
-        if (is_past_end) {
-            feed->calls->unread(feed, token);
-            deliver_end(feed, token);
-            return;
-        }
         // No operator continues a string.
-        if (state->takes_string && state->ends_before && state->openers.count == 0 && token->kind != '[') {
+        bool is_past_string = state->takes_string && state->ends_before && state->openers.count == 0 &&
+                              token->kind != '[';
+        if (is_past_end || is_past_string) {
             feed->calls->unread(feed, token);
             deliver_end(feed, token);
             return;

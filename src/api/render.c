@@ -134,36 +134,35 @@ static bool trace_picture(rt_session *session, const Prepared *prepared, int thr
     return has_picture;
 }
 
-static rt_status render_scene(rt_session *session, void *argument)
+// The scene made ready for rays; NULL when out of memory or cancelled.
+static Prepared *prepare(rt_session *session, int threads)
 {
-    double start = clock_seconds();
-    int threads = *(const int *)argument;
-    threads = threads ? threads : render_default_threads();
-    session->threads = threads;
     bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
                     session->precision == RT_PRECISION_DOUBLE;
+    bool is_shared = session->sharing.has_scene;
     GeometryOptions geometry = {.threads = threads,
                                 .isa = session->isa,
                                 .spent = is_spent ? &session->scene : NULL,
                                 .rays = session_camera_rays(session),
-                                .kept = is_spent ? NULL : &session->kept,
+                                .kept = is_spent || is_shared ? NULL : &session->kept,
+                                .is_shared = is_shared,
+                                .has_clear = session->sharing.has_clear,
                                 .cancel = &session->cancel};
-    OverlayOptions overlay = session->overlay;
-    overlay_find_reach(&overlay, &session->scene);
-    geometry.is_shared = session->sharing.has_scene;
-    geometry.has_clear = session->sharing.has_clear;
-    geometry.kept = geometry.is_shared ? NULL : geometry.kept;
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     session_scene_ask(session, prepared);
+    return prepared;
+}
+
+// The film, and what of the options the prepared scene is told. False after a report.
+static bool begin_film(rt_session *session, Prepared *prepared)
+{
     Film *film = &session->film;
     if (!prepared || !film_init(film, session_film_width(session), session_film_height(session),
                                 session_film_planes(session))) {
-        film_fini(film);
-        prepared_free(prepared);
         if (prepared || !atomic_load(&session->cancel)) {
             diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
         }
-        return session_status(session, false);
+        return false;
     }
     prepared_seed(prepared, session->sampling.seed);
     if (session->has_alpha) {
@@ -172,7 +171,19 @@ static rt_status render_scene(rt_session *session, void *argument)
     if (session->crop.width) {
         film_put(film, session->crop.left, session->crop.top, session->width, session->height);
     }
-    if (!take_precision(session, prepared) || !forward_fits(session, prepared)) {
+    return take_precision(session, prepared) && forward_fits(session, prepared);
+}
+
+static rt_status render_scene(rt_session *session, void *argument)
+{
+    double start = clock_seconds();
+    int threads = *(const int *)argument;
+    threads = threads ? threads : render_default_threads();
+    session->threads = threads;
+    OverlayOptions overlay = session->overlay;
+    overlay_find_reach(&overlay, &session->scene); // before the scene is spent
+    Prepared *prepared = prepare(session, threads);
+    if (!begin_film(session, prepared)) {
         prepared_free(prepared);
         film_fini(&session->film);
         return session_status(session, false);

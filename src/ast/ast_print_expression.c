@@ -109,6 +109,20 @@ static void print_binary(Printer *printer, const AstNode *node)
     printer_operand(printer, node->b, precedence + 1);
 }
 
+static void print_expression(Printer *printer, const AstNode *node);
+
+static void print_call(Printer *printer, const AstNode *node)
+{
+    if (node->b) {
+        print_expression(printer, node->b);
+    } else {
+        printer_put_symbol(printer, node->symbol);
+    }
+    printer_put(printer, "(");
+    printer_list(printer, node->a, printer->indent);
+    printer_put(printer, ends_in_comma(node->a) ? ",)" : ")");
+}
+
 static void print_expression(Printer *printer, const AstNode *node)
 {
     switch (node->kind) {
@@ -142,14 +156,7 @@ static void print_expression(Printer *printer, const AstNode *node)
         printer_put(printer, ends_in_comma(node->a) ? ",>" : ">");
         break;
     case AST_CALL:
-        if (node->b) {
-            print_expression(printer, node->b);
-        } else {
-            printer_put_symbol(printer, node->symbol);
-        }
-        printer_put(printer, "(");
-        printer_list(printer, node->a, printer->indent);
-        printer_put(printer, ends_in_comma(node->a) ? ",)" : ")");
+        print_call(printer, node);
         break;
     case AST_BUILTIN:
         print_builtin(printer, node);

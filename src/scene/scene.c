@@ -54,66 +54,33 @@ void scene_init(Scene *scene)
     };
 }
 
+// All its lists, and the indices of those that keep each different record once.
+#define SCENE_LISTS(X)                                                                                                 \
+    X(sky) X(fogs) X(lights) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps) X(warps)         \
+    X(picture_sources) X(picture_shades) X(image_maps) X(pictures) X(slope_entries) X(normal_entries) X(normals)       \
+    X(texture_entries) X(textures) X(interiors) X(compounds) X(spheres) X(sphere_runs) X(planes) X(parts) X(meshes)    \
+    X(face_materials) X(blobs) X(nodes) X(composites) X(start_shapes) X(bodies)
+#define SCENE_INDICES(X)                                                                                               \
+    X(finish) X(material) X(pigment_entry) X(pattern) X(slope_entry) X(normal_entry) X(normal) X(texture_entry)        \
+    X(texture) X(interior) X(compound) X(picture_source) X(picture_shade) X(image_map) X(formula_step) X(warp)
+
 void scene_fini(Scene *scene)
 {
-    ARRAY_FREE(&scene->sky);
-    ARRAY_FREE(&scene->fogs);
-    ARRAY_FREE(&scene->lights);
-    ARRAY_FREE(&scene->finishes);
-    ARRAY_FREE(&scene->materials);
-    ARRAY_FREE(&scene->pigment_entries);
-    ARRAY_FREE(&scene->patterns);
     for (size_t i = 0; i < scene->pictures.count; i++) {
         picture_fini(&scene->pictures.items[i]);
     }
-    ARRAY_FREE(&scene->formula_steps);
-    ARRAY_FREE(&scene->warps);
-    ARRAY_FREE(&scene->picture_sources);
-    ARRAY_FREE(&scene->picture_shades);
-    ARRAY_FREE(&scene->image_maps);
-    ARRAY_FREE(&scene->pictures);
-    ARRAY_FREE(&scene->slope_entries);
-    ARRAY_FREE(&scene->normal_entries);
-    ARRAY_FREE(&scene->normals);
-    ARRAY_FREE(&scene->texture_entries);
-    ARRAY_FREE(&scene->textures);
-    ARRAY_FREE(&scene->interiors);
-    ARRAY_FREE(&scene->compounds);
-    ARRAY_FREE(&scene->spheres);
-    ARRAY_FREE(&scene->sphere_runs);
-    ARRAY_FREE(&scene->planes);
-    ARRAY_FREE(&scene->parts);
+    for (size_t i = 0; i < scene->meshes.count; i++) {
+        mesh_free(scene->meshes.items[i]);
+    }
     numbers_fini(&scene->numbers);
     if (scene->formula_host) {
         free((void *)scene->formula_host->noise);
         free(scene->formula_host);
     }
-    for (size_t i = 0; i < scene->meshes.count; i++) {
-        mesh_free(scene->meshes.items[i]);
-    }
-    ARRAY_FREE(&scene->meshes);
-    ARRAY_FREE(&scene->face_materials);
-    ARRAY_FREE(&scene->blobs);
-    ARRAY_FREE(&scene->nodes);
-    ARRAY_FREE(&scene->composites);
-    ARRAY_FREE(&scene->start_shapes);
-    ARRAY_FREE(&scene->bodies);
-    unique_fini(&scene->finish_index);
-    unique_fini(&scene->material_index);
-    unique_fini(&scene->pigment_entry_index);
-    unique_fini(&scene->pattern_index);
-    unique_fini(&scene->slope_entry_index);
-    unique_fini(&scene->normal_entry_index);
-    unique_fini(&scene->normal_index);
-    unique_fini(&scene->texture_entry_index);
-    unique_fini(&scene->texture_index);
-    unique_fini(&scene->interior_index);
-    unique_fini(&scene->compound_index);
-    unique_fini(&scene->picture_source_index);
-    unique_fini(&scene->picture_shade_index);
-    unique_fini(&scene->image_map_index);
-    unique_fini(&scene->formula_step_index);
-    unique_fini(&scene->warp_index);
+#define FREE_LIST(list)    ARRAY_FREE(&scene->list);
+#define FREE_INDEX(record) unique_fini(&scene->record##_index);
+    SCENE_LISTS(FREE_LIST)
+    SCENE_INDICES(FREE_INDEX)
     scene_init(scene);
 }
 
@@ -257,20 +224,9 @@ size_t scene_picture_bytes(const Scene *scene)
 
 size_t scene_bytes(const Scene *scene)
 {
-#define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
-    return LIST_BYTES(scene->sky) + LIST_BYTES(scene->fogs) + LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) +
-           LIST_BYTES(scene->finishes) + LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) +
-           LIST_BYTES(scene->slope_entries) + LIST_BYTES(scene->normal_entries) + LIST_BYTES(scene->normals) +
-           LIST_BYTES(scene->texture_entries) + LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) +
-           LIST_BYTES(scene->compounds) + LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) +
-           LIST_BYTES(scene->planes) + LIST_BYTES(scene->parts) + LIST_BYTES(scene->meshes) +
-           LIST_BYTES(scene->face_materials) + LIST_BYTES(scene->blobs) + scene->mesh_bytes + LIST_BYTES(scene->nodes) +
-           LIST_BYTES(scene->composites) + LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
-           LIST_BYTES(scene->formula_steps) + LIST_BYTES(scene->warps) + LIST_BYTES(scene->picture_sources) +
-           LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) + LIST_BYTES(scene->pictures) +
-           LIST_BYTES(scene->numbers.lists) + LIST_BYTES(scene->numbers.slots) + scene->numbers.bytes +
-           scene_picture_bytes(scene);
-#undef LIST_BYTES
+#define LIST_BYTES(list) +list_bytes(scene->list.count, scene->list.capacity, sizeof *scene->list.items)
+    return scene->mesh_bytes + scene->numbers.bytes + scene_picture_bytes(scene) SCENE_LISTS(LIST_BYTES)
+        LIST_BYTES(numbers.lists) LIST_BYTES(numbers.slots);
 }
 
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer)
