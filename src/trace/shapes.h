@@ -138,8 +138,8 @@ static inline bool shapes_are_abandoned(const ShapeTable *table)
     return table->abandon && trace_is_abandoned(table->abandon);
 }
 
-// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: one of the same family.
-// Such a ray has passed what lies within rounding of its start.
+// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: their families have a
+// bit in common. Such a ray has passed what lies within rounding of its start.
 static inline bool starts_beside(const ShapeTable *table, RayStart start, const Solid *solid)
 {
     if (start.shape == SHAPE_NONE) {
@@ -149,7 +149,7 @@ static inline bool starts_beside(const ShapeTable *table, RayStart start, const 
     uint8_t family = kind == SHAPE_PART     ? table->solids[part_index(start.shape)].family
                      : kind == SHAPE_SPHERE ? FAMILY_ROUND
                                             : FAMILY_STRAIGHT;
-    return family == solid->family;
+    return (family & solid->family) != 0;
 }
 
 // The material of a shape on a part.

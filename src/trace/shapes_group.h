@@ -42,8 +42,8 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
 {
     const Solid *left = from->left;
     bool has_lanes = left && kind_has_lanes(left->kind);
-    bool is_round = left ? left->family == FAMILY_ROUND : shape_kind(from->start.shape) == SHAPE_SPHERE;
-    bool is_straight = left ? left->family == FAMILY_STRAIGHT : !is_round;
+    bool is_round = left ? (left->family & FAMILY_ROUND) != 0 : shape_kind(from->start.shape) == SHAPE_SPHERE;
+    bool is_straight = left ? (left->family & FAMILY_STRAIGHT) != 0 : !is_round;
     LaneSolid own;
     from->far = vec3_length(group->end) + group->farthest;
     if (has_lanes) {

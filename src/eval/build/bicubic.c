@@ -97,17 +97,22 @@ static void halve(const PatchPiece *piece, int side, PatchPiece *low, PatchPiece
     }
 }
 
-// Whether no point is as far as that from the plane through three of the corners.
+// Whether no point is as far as that from the plane through three of the corners. Where the first row is one point the
+// last corner takes part; where there is no plane, nothing is flat. Measured.
 static bool is_flat(const PatchPiece *patch, double flatness)
 {
     Vec3 corner = patch->points[0][0];
-    Vec3 normal = vec3_cross(vec3_sub(patch->points[0][3], corner), vec3_sub(patch->points[3][0], corner));
-    double length = vec3_length(normal), greatest = 0.0;
-    for (int i = 0; length > 0.0 && i < POINTS; i++) {
-        double distance = fabs(vec3_dot(normal, vec3_sub(patch->points[i / 4][i % 4], corner))) / length;
-        greatest = distance > greatest ? distance : greatest;
+    Vec3 along = vec3_sub(patch->points[0][3], corner);
+    if (vec3_equal(along, vec3(0.0, 0.0, 0.0))) {
+        along = vec3_sub(patch->points[3][3], corner);
     }
-    return greatest < flatness;
+    Vec3 normal = vec3_cross(along, vec3_sub(patch->points[3][0], corner));
+    double length = vec3_length(normal);
+    bool is_near = length > 0.0;
+    for (int i = 0; is_near && i < POINTS; i++) {
+        is_near = fabs(vec3_dot(normal, vec3_sub(patch->points[i / 4][i % 4], corner))) / length < flatness;
+    }
+    return is_near;
 }
 
 // ---- triangles
