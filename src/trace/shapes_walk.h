@@ -369,7 +369,7 @@ static __attribute__((noinline)) void mesh_closest(ShapeQuery *q, uint32_t index
             uint32_t face = table->faces[i];
             if (!mesh_ray_crosses(&query.shear, table->mesh, face, &at) || !(at.t > 0.0) || face == left ||
                 !(at.t < nearest || (at.t == nearest && face < found)) ||
-                !mesh_shows(table, &query.ray, at.t) ||
+                !mesh_shows(table, &query.ray, at.t, face) ||
                 face_is_passed(q, solid, &object, at.t / query.length, face, passed)) {
                 continue;
             }
