@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "math/length.h"
 #include "scene/blob.h"
 #include "scene/isosurface.h"
 #include "scene/dump.h"
@@ -36,7 +37,7 @@ static void dump_first(const Part *part, TextBuffer *out)
 static double ball_support(const Part *part, Vec3 n)
 {
     (void)part;
-    return hypot(hypot(n.x, n.y), n.z);
+    return length_of(n.x, n.y, n.z);
 }
 
 static bool ball_holds(const Part *part, Vec3 p)
@@ -138,7 +139,7 @@ static void box_measure(const Part *part, Vec3 *half, Vec3 *middle)
 
 static double cone_support(const Part *part, Vec3 n)
 {
-    double round = hypot(n.x, n.y);
+    double round = length_of(n.x, n.y, 0.0);
     return fmax(round, part->data[0].x * round + n.z);
 }
 
@@ -174,7 +175,7 @@ static Vec3 cone_normal(uint32_t number)
 static double disc_support(const Part *part, Vec3 n)
 {
     (void)part;
-    return hypot(n.x, n.y);
+    return length_of(n.x, n.y, 0.0);
 }
 
 static bool disc_holds(const Part *part, Vec3 p)
