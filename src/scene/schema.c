@@ -960,8 +960,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                            .is_object = true,
                            .is_declarable = true,
                            .groups = {LIST(sweep_properties), OBJECT_GROUPS},
-                           .doc = "`linear_spline`, `b_spline` or `cubic_spline`, the number of balls, a middle and a "
-                                  "radius of each: all that a ball covers on its way through them."},
+                           .doc = "A word for the curve, the number of balls, the middle and radius of each: all that a ball "
+                                  "covers."},
     [KIND_TEXT] = {.word = "text",
                    .what = "a text",
                    .size = sizeof(UnionDesc),

@@ -93,9 +93,10 @@ static void form_of(const Seen *seen, double *f)
         f[i] = 0.0;
     }
     for (unsigned i = 0; i <= seen->degree; i++) {
-        for (unsigned j = 0; j <= seen->degree; j++) {
-            f[i + j] += seen->line->square * seen->radius[i] * seen->radius[j] -
-                        vec3_dot(seen->cross[i], seen->cross[j]);
+        for (unsigned j = i; j <= seen->degree; j++) {
+            double term = seen->line->square * seen->radius[i] * seen->radius[j] -
+                          vec3_dot(seen->cross[i], seen->cross[j]);
+            f[i + j] += i == j ? term : 2.0 * term;
         }
     }
 }
@@ -155,11 +156,11 @@ static void set_errors(const Seen *seen, Polynomial *p)
         p->errors[i] = p->sizes[i] = 0.0;
     }
     for (unsigned i = 0; i <= degree; i++) {
-        for (unsigned j = 0; j <= degree; j++) {
-            double balls = fabs(seen->line->square * seen->radius[i] * seen->radius[j]);
-            p->errors[i + j] += off[i] * size[j] + size[i] * off[j] + off[i] * off[j] +
-                                0x1p-47 * (size[i] * size[j] + balls);
-            p->sizes[i + j] += 0x1p98 * (off[i] * off[j]) + balls;
+        for (unsigned j = i; j <= degree; j++) {
+            double balls = fabs(seen->line->square * seen->radius[i] * seen->radius[j]), times = i == j ? 1.0 : 2.0;
+            p->errors[i + j] += times * (off[i] * size[j] + size[i] * off[j] + off[i] * off[j] +
+                                         0x1p-47 * (size[i] * size[j] + balls));
+            p->sizes[i + j] += times * (0x1p98 * (off[i] * off[j]) + balls);
         }
     }
 }
