@@ -277,6 +277,13 @@ typedef struct SuperellipsoidDesc {
     double about, along; // e and n
 } SuperellipsoidDesc;
 
+typedef struct SweepDesc {
+    ObjectPart part;
+    Numbers list; // scene/sweep.h, in parts of `size`
+    double size;  // a power of two
+    double tolerance;
+} SweepDesc;
+
 typedef struct PolygonDesc {
     ObjectPart part;
     Numbers outline; // within the frame
@@ -433,6 +440,7 @@ typedef union Desc {
     LatheDesc lathe;
     SorDesc sor;
     SuperellipsoidDesc superellipsoid;
+    SweepDesc sweep;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     MeshDesc mesh;

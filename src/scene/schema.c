@@ -393,6 +393,13 @@ static const SchemaProperty prism_properties[] = {
 static const PrismDesc prism_defaults = {.part = OBJECT_PART};
 
 static const SuperellipsoidDesc superellipsoid_defaults = {.part = OBJECT_PART, .about = 1.0, .along = 1.0};
+
+static const SchemaProperty sweep_properties[] = {
+    {"tolerance", TYPE_NUMBER, AT(SweepDesc, tolerance), .is_first = true,
+     .doc = "changes nothing: no ray meets again what it leaves"},
+};
+
+static const SweepDesc sweep_defaults = {.part = OBJECT_PART, .size = 1.0};
 static const LatheDesc lathe_defaults = {.part = OBJECT_PART};
 static const SorDesc sor_defaults = {.part = OBJECT_PART};
 
@@ -946,6 +953,15 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                              .is_declarable = true,
                              .groups = {OBJECT_GROUPS},
                              .doc = "`<e, n>`: where (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) is less than 1."},
+    [KIND_SPHERE_SWEEP] = {.word = "sphere_sweep",
+                           .what = "a sphere sweep",
+                           .size = sizeof(SweepDesc),
+                           .defaults = &sweep_defaults,
+                           .is_object = true,
+                           .is_declarable = true,
+                           .groups = {LIST(sweep_properties), OBJECT_GROUPS},
+                           .doc = "A word for the curve, the number of balls, the middle and radius of each: all that a ball "
+                                  "covers."},
     [KIND_TEXT] = {.word = "text",
                    .what = "a text",
                    .size = sizeof(UnionDesc),
@@ -1223,7 +1239,6 @@ static const SchemaUnsupported unsupported[] = {
     {"parametric", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
     {"rainbow", true, NULL, "the rainbow"},
-    {"sphere_sweep", true, "use a `union` of spheres", NULL},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},
     {"iff", false, "save the picture as PNG", NULL},

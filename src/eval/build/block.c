@@ -80,6 +80,7 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_LATHE] = lathe_body,
     [KIND_SOR] = sor_body,
     [KIND_SUPERELLIPSOID] = superellipsoid_body,
+    [KIND_SPHERE_SWEEP] = sweep_body,
     [KIND_MESH] = mesh_body,
     [KIND_MESH2] = mesh2_body,
     [KIND_HEIGHT_FIELD] = height_field_body,

@@ -423,6 +423,12 @@ const char *superellipsoid_form(const void *object, Part *part) RT_MUST_CHECK; /
 bool superellipsoid_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool superellipsoid_box(const void *object, OwnBox *own);
 
+// sweep.c: sphere sweeps
+bool sweep_body(Block *block) RT_MUST_CHECK;
+const char *sweep_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+bool sweep_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
+bool sweep_box(const void *object, OwnBox *own);
+
 // text.c: letters, as a union of prisms
 bool text_body(Block *block) RT_MUST_CHECK;
 
