@@ -96,6 +96,53 @@ def ellipsoid(p):
             f"rotate {vector(p.place(180))} translate {vector(p.place())} {p.paint()} }}\n")
 
 
+def turned(p, size):
+    return f"scale {size:.6g} rotate {vector(p.place(180))} translate {vector(p.place())} {p.paint()}"
+
+
+def shaped(text, size=1.0):
+    """A shape of size 1 or so, at a place of each and turned."""
+    return lambda p: f"{text} {turned(p, size * p.size)} }}\n"
+
+
+TORUS = "torus { 0.4, 0.15"
+QUARTIC = "quartic { <1, 0, 0, 0, 2, 0, 0, 2, 0, -0.365, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0.275, 0, 0, 0, 0, 1, 0, -0.365, 0, 0.01890625>"
+SUPERELLIPSOID = "superellipsoid { <0.25, 0.25>"
+FLOWER = "lathe { cubic_spline 6 <0.1, -0.7>, <0.2, -0.5>, <0.5, -0.2>, <0.2, 0.1>, <0.4, 0.5>, <0.5, 0.7>"
+VASE = "sor { 6 <0.1, -0.7>, <0.2, -0.5>, <0.5, -0.2>, <0.2, 0.1>, <0.4, 0.5>, <0.5, 0.7>"
+STAR = "prism { quadratic_spline 0, 0.3, 8 <-0.5, -0.5>, <0, -0.6>, <0.5, -0.1>, <0.2, 0.3>, <0, 0.6>, <-0.4, 0.4>, <-0.4, -0.2>, <0, -0.6>"
+WORD = 'text { ttf "timrom.ttf" "Rays" 0.2, 0'
+WAVES = ("isosurface { function { x*x + y*y + z*z - 0.2 + 0.05 * sin(9*x) * sin(9*y) * sin(9*z) } "
+         "contained_by { sphere { 0, 0.7 } } max_gradient 3")
+
+
+def drops(p, count=6):
+    """A blob of some drops."""
+    parts = [f"sphere {{ {vector(p.place(0.4))}, 0.5, 1 }}" for _ in range(count)]
+    return f"blob {{ threshold 0.5 {' '.join(parts)} {turned(p, p.size)} }}\n"
+
+
+def one_blob(count):
+    places = Places(count)
+    yield "blob { threshold 0.4\n"
+    for _ in range(count):
+        yield f"sphere {{ {vector(places.place())}, {2 * places.size:.6g}, 1 }}\n"
+    yield "pigment { rgb 0.8 } }\n"
+
+
+def hills(count):
+    """A height field of so many columns and rows, from a function."""
+    yield (f"height_field {{ function {count}, {count} {{ 0.5 + 0.2 * sin(13*x) * cos(11*y) + 0.1 * sin(67*x + 3) * sin(59*y) }} "
+           "translate -0.5 scale <4, 0.8, 4> rotate -35*x pigment { rgb 0.8 } }\n")
+
+
+def large(text):
+    """One that fills the picture; it has no size to grow by."""
+    def scene(_count):
+        yield f"{text} rotate <-60, 20, 0> scale 2.2 pigment {{ rgb 0.8 }} }}\n"
+    return scene
+
+
 def pair(word, other):
     def form(p):
         here = p.place()
@@ -208,6 +255,25 @@ KINDS = {
     "clipped": each(lambda p: sphere(p, f"clipped_by {{ plane {{ y, {p.place()[1]:.4g} }} }}")),
     "inverse spheres": each(lambda p: sphere(p, "inverse")),
     "inverse boxes": each(lambda p: box(p, "inverse")),
+    "tori": each(shaped(TORUS)),
+    "quartics": each(shaped(QUARTIC)),
+    "blobs": each(drops),
+    "superellipsoids": each(shaped(SUPERELLIPSOID, 0.5)),
+    "lathes": each(shaped(FLOWER)),
+    "surfaces of revolution": each(shaped(VASE)),
+    "prisms": each(shaped(STAR)),
+    "texts": each(shaped(WORD, 0.6)),
+    "isosurfaces": each(shaped(WAVES)),
+    "one torus": large(TORUS),
+    "one quartic": large(QUARTIC),
+    "one blob": one_blob,
+    "one superellipsoid": large("superellipsoid { <0.25, 0.25> scale 0.5"),
+    "one lathe": large(FLOWER),
+    "one surface of revolution": large(VASE),
+    "one prism": large(STAR),
+    "one text": large(WORD + " translate -0.9*x scale 0.7"),
+    "one isosurface": large(WAVES),
+    "one height field": hills,
     "equal boxes in one place": each(lambda p: "box { -0.5, 0.5 pigment { rgb 0.7 } }\n"),
     "boxes in a large box": within("box { -1e6, 1e6 pigment { rgb 0.6 } }\n", box),
     "boxes on a large disc": within("disc { -y, y, 1e6 pigment { rgb 0.6 } }\n", box),

@@ -76,7 +76,7 @@ static inline uint32_t item_index(ShapeItem item)
 static inline bool kind_has_lanes(PartKind kind)
 {
     const unsigned kinds = 1u << PART_SPHERE | 1u << PART_BOX | 1u << PART_CONE | 1u << PART_DISC | 1u << PART_TRIANGLE |
-                           1u << PART_SMOOTH_TRIANGLE;
+                           1u << PART_SMOOTH_TRIANGLE | 1u << PART_TORUS;
     return kinds >> kind & 1;
 }
 

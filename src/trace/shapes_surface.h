@@ -99,6 +99,7 @@ static uint64_t shapes_surfaces(const ShapeTable *table, const double *const ori
         case PART_SPHERE: surfaces_fill(table, origin, apart, hits, PART_SPHERE, &of, surfaces); break;
         case PART_BOX: surfaces_fill(table, origin, apart, hits, PART_BOX, &of, surfaces); break;
         case PART_CONE: surfaces_fill(table, origin, apart, hits, PART_CONE, &of, surfaces); break;
+        case PART_TORUS: surfaces_fill(table, origin, apart, hits, PART_TORUS, &of, surfaces); break;
         case PART_SMOOTH_TRIANGLE:
             surfaces_fill(table, origin, apart, hits, PART_SMOOTH_TRIANGLE, &of, surfaces);
             break;

@@ -7,6 +7,7 @@
 
 #include "trace/bvh_walk.h"
 #include "trace/shapes.h"
+#include "trace/solid_lanes.h"
 
 // The ray's line in the coordinates of the tree, as the boxes of items want it.
 typedef struct BoxLine {
@@ -126,6 +127,52 @@ static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Forem
     }
 }
 
+// ---- a torus, whose first root the test in lanes tells; see torus_lanes.h
+
+// The same for one ray: whether it is told, and then where it is; `along` as in TorusFirst. *is_missed: for certain.
+static __attribute__((noinline)) bool torus_first(const Solid *solid, const Ray *object, double *t, double *along,
+                                                  bool *is_missed)
+{
+    Vec3 o = object->origin, v = object->direction;
+    const Doubles f[3] = {doubles_splat(o.x), doubles_splat(o.y), doubles_splat(o.z)};
+    const Doubles d[3] = {doubles_splat(v.x), doubles_splat(v.y), doubles_splat(v.z)};
+    double major = solid->data[0].x, minor = solid->data[0].y;
+    TorusFirst first;
+    *is_missed = !torus_lanes_first(major, minor, false, f, d, 1, &first);
+    if (*is_missed || !(first.certain & 1)) {
+        return false;
+    }
+    *t = first.root[0];
+    *along = first.along[0];
+    return true;
+}
+
+// All intervals, the root that is told in its place.
+static unsigned torus_all(const Solid *solid, const Ray *object, RayInterval *intervals)
+{
+    double t, along;
+    bool is_missed;
+    unsigned count = solid_intervals(solid, object, LEFT_NONE, intervals), nearest = 0;
+    if (count > 0 && torus_first(solid, object, &t, &along, &is_missed)) {
+        for (unsigned i = 1; i < count; i++) {
+            nearest = fabs(intervals[i].enter - t) < fabs(intervals[nearest].enter - t) ? i : nearest;
+        }
+        intervals[nearest].enter = t;
+    }
+    return count;
+}
+
+static double torus_error(const ShapeQuery *q, const Solid *solid, const Ray *object, double t)
+{
+    RayInterval intervals[TORUS_INTERVALS];
+    unsigned count = torus_all(solid, object, intervals), i = 0;
+    while (i + 1 < count && intervals[i].enter != t) {
+        i++;
+    }
+    double room = count > 0 ? interval_room(intervals, count, i) : (double)INFINITY;
+    return solid_end_error(solid, q->ray, object, t, TORUS_OUTER, room);
+}
+
 // The error of a first hit of which only a bound is known. What is not a ball the ray does not start on.
 static double bounded_error(const ShapeQuery *q, const Ray *object, const Hit *hit)
 {
@@ -136,6 +183,9 @@ static double bounded_error(const ShapeQuery *q, const Ray *object, const Hit *h
     }
     if (solid_is_flat(solid)) {
         return solid_crossing_error(solid, q->ray, object, hit->t, 0);
+    }
+    if (solid->kind == PART_TORUS) {
+        return torus_error(q, solid, object, hit->t);
     }
     (void)solid_intervals(solid, object, LEFT_NONE, &interval);
     return solid_end_error(solid, q->ray, object, hit->t, part_side(hit->shape), interval.leave - interval.enter);
@@ -181,9 +231,9 @@ static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const S
     root_offer(q, index, t, error, 0, leaves, first);
 }
 
-// Takes a ball, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
+// Takes a solid, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
 // asks. True when it was.
-static bool ball_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
+static bool solid_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
                           Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
@@ -229,11 +279,28 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     }
     double passed = passed_error(q, solid);
     double root = q->is_any ? t : sphere_refine(&ray, &unit, t); // near the ends of the range the bound is not that of t
-    if (!is_passed(root, bound, passed) && ball_is_first(q, index, root, bound, leaves, enter, first)) {
+    if (!is_passed(root, bound, passed) && solid_is_first(q, index, root, bound, leaves, enter, first)) {
         return;
     }
     root = q->is_any ? sphere_refine(&ray, &unit, t) : root;
     ball_offer(q, index, &object, &ray, root, leaves, passed, first);
+}
+
+// A torus that the ray does not start on. False: several_closest is to be asked.
+static bool torus_closest(ShapeQuery *q, uint32_t index, const Ray *object, Foremost *first)
+{
+    const Solid *solid = &q->table->solids[index];
+    double t, along, enter;
+    bool is_missed;
+    if (!torus_first(solid, object, &t, &along, &is_missed)) {
+        return is_missed;
+    }
+    LaneSlack slack = lane_slack(solid, vec3_length(q->ray->origin));
+    double bound = (slack.fixed + slack.slope * t) / along;
+    if (t - bound > first->limit || !item_enters(q, &enter) || enter > first->limit) {
+        return true;
+    }
+    return !is_passed(t, bound, passed_error(q, solid)) && solid_is_first(q, index, t, bound, false, enter, first);
 }
 
 // A ball that the ray goes into where it starts.
@@ -299,7 +366,8 @@ static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t in
     if (shapes_are_abandoned(q->table)) {
         return; // a line through a polynomial takes up to a millisecond
     }
-    unsigned count = solid_intervals(solid, object, left, intervals);
+    bool is_told = solid->kind == PART_TORUS && left.side == SIDE_NONE;
+    unsigned count = is_told ? torus_all(solid, object, intervals) : solid_intervals(solid, object, left, intervals);
     if (count == 0) {
         return;
     }
@@ -412,6 +480,9 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
         return;
     }
     Ray object = solid_ray(solid, q->ray);
+    if (solid->kind == PART_TORUS && !is_start && torus_closest(q, index, &object, first)) {
+        return;
+    }
     span_refine(q, first);
     if (solid_is_flat(solid)) {
         flat_closest(q, index, &object, first);

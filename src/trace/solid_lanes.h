@@ -13,6 +13,7 @@
 #include "trace/cone.h"
 #include "trace/shapes.h"
 #include "trace/simd.h"
+#include "trace/torus_lanes.h"
 
 // A linear map for each ray, or the same for all.
 typedef struct Linears {
@@ -81,6 +82,9 @@ typedef struct LaneSlack {
 // The greatest that a component of a gradient is on the surface.
 RT_ALWAYS_INLINE double gradient_most(const Solid *solid)
 {
+    if (solid->kind == PART_TORUS) {
+        return 1.1 * solid->data[0].y; // it is as long as the tube is thick
+    }
     double ratio = solid->kind == PART_CONE ? solid->data[0].x : 1.0;
     double radius = greater_of(1.0, ratio);
     return 1.1 * radius * greater_of(1.0, fabs(1.0 - ratio));
@@ -340,6 +344,24 @@ RT_ALWAYS_INLINE bool flat_lanes(const LaneSolid *own, PartKind kind, const Doub
     return true;
 }
 
+// The first root of a torus; `starts`: all rays start on it and leave it. What goes through itself has no test.
+RT_ALWAYS_INLINE bool torus_lanes(const LaneSolid *own, const Doubles f[3], const Doubles d[3], bool starts,
+                                  unsigned asked, SolidLanes *lanes)
+{
+    double major = own->solid->data[0].x, minor = own->solid->data[0].y;
+    TorusFirst first;
+    if (!torus_lanes_first(major, minor, starts, f, d, asked, &first)) {
+        return false;
+    }
+    lanes->possible = first.possible;
+    lanes->certain = first.certain;
+    lanes->leaves = 0;
+    lanes->side = (DoublesMask){0} + TORUS_OUTER;
+    lanes->root = first.root;
+    lanes->bound = (own->slack.fixed + own->slack.slope * first.root) / first.along;
+    return true;
+}
+
 // The kinds, each with its test. `kind` is a constant of the caller, `world` the rays' directions. False when all of
 // `asked` are missed; nothing else is set then.
 RT_ALWAYS_INLINE bool solid_lanes(const LaneSolid *own, PartKind kind, const Doubles f[3], const Doubles d[3],
@@ -349,6 +371,7 @@ RT_ALWAYS_INLINE bool solid_lanes(const LaneSolid *own, PartKind kind, const Dou
     case PART_SPHERE: return ball_lanes(f, d, &own->slack, asked, lanes);
     case PART_BOX: return box_lanes(own, f, d, asked, lanes);
     case PART_CONE: return cone_lanes(own, f, d, asked, lanes);
+    case PART_TORUS: return torus_lanes(own, f, d, false, asked, lanes);
     default: return flat_lanes(own, kind, f, d, world, asked, lanes);
     }
 }
