@@ -174,12 +174,18 @@ static void add_from_ini(Library *library)
 
 // ---- other places
 
+static int is_memory_wanting(const char *path, int error)
+{
+    (void)path;
+    return error == ENOMEM;
+}
+
 // Open Babel's scenes include a file that lies with its data, in a folder named by its version.
 static void add_open_babel(Library *library)
 {
     glob_t found;
-    int result = glob("/usr/share/openbabel/*", GLOB_ONLYDIR, NULL, &found);
-    library->failed = library->failed || result == GLOB_NOSPACE;
+    int result = glob("/usr/share/openbabel/*", GLOB_ONLYDIR, is_memory_wanting, &found);
+    library->failed = library->failed || result == GLOB_NOSPACE || result == GLOB_ABORTED;
     if (result == 0) {
         for (size_t i = 0; i < found.gl_pathc; i++) {
             add(library, found.gl_pathv[i]);
