@@ -61,6 +61,10 @@ typedef struct PatternPart {
     const struct Function *function; // PATTERN_FUNCTION, of the evaluator
     const struct PigmentDesc *pigment; // PATTERN_PIGMENT
     const WarpDesc *warps; // the last one first
+    const Transform *on_surface; // from the pattern's space to surface coordinates, which nothing else moves; NULL: it
+                                 // lies in space
+    bool turns;                  // bumps of it do move: their directions, that is, and not what they are told of
+    bool asks_uv;                // it or something along it lies on the surface
 } PatternPart;
 
 typedef struct PigmentDesc {
@@ -323,6 +327,7 @@ typedef struct PatchDesc {
     Vec3 points[4][4]; // four rows; u_steps halves from row to row, v_steps within the rows
     double flatness;
     double steps[2]; // u_steps, v_steps: whole numbers
+    double uv[4][2]; // at the corners: first row and last row from its start, then their ends, round the patch
 } PatchDesc;
 
 struct UnionMember {

@@ -41,7 +41,7 @@ static void dump_noise_modifiers(const Pattern *pattern, TextBuffer *out)
         dump_vector(out, "  form ", pattern->form);
         dump_number(out, " metric ", pattern->metric);
         dump_number(out, " offset ", pattern->offset);
-        text_append(out, pattern->is_solid ? " solid\n" : "\n");
+        text_append(out, pattern->flags & PATTERN_SOLID ? " solid\n" : "\n");
     }
     if (pattern->generator != 0) {
         text_printf(out, "  noise_generator %d\n", (int)pattern->generator);
@@ -88,8 +88,14 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
     text_append(out, "\n");
 }
 
+static void dump_surface_word(const Pattern *pattern, TextBuffer *out)
+{
+    text_append(out, pattern->flags & PATTERN_ON_SURFACE ? "  uv_mapping\n" : "");
+}
+
 static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBuffer *out)
 {
+    dump_surface_word(pattern, out);
     if (pattern->type == PATTERN_FUNCTION) {
         dump_formula(scene, pattern, out);
         return;
@@ -152,6 +158,7 @@ static void dump_image_map(const Scene *scene, const PatternedPigment *record, s
 {
     const ImageMap *map = &scene->image_maps.items[record->pattern.image];
     text_printf(out, "#declare P%zu = pigment {\n", number);
+    dump_surface_word(&record->pattern, out);
     dump_source(&scene->picture_sources.items[map->picture], out);
     text_printf(out, " map_type %lu%s", (unsigned long)map->projection, map->is_once ? " once" : "");
     if (map->interpolation != INTERPOLATION_NONE) {

@@ -52,6 +52,11 @@ typedef enum PatternType {
 
 enum { PATTERN_STEPS_MOST = 1000000 }; // of mandel and julia
 
+enum {
+    PATTERN_SOLID = 1,      // crackle: each cell has one value
+    PATTERN_ON_SURFACE = 2, // its space holds the surface coordinates <u, v, 0> of what it lies on, and no places
+};
+
 typedef enum WaveType { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY } WaveType;
 
 typedef struct Pattern {
@@ -60,7 +65,7 @@ typedef struct Pattern {
     int32_t generator; // NoiseGenerator, 0: the scene's
     int32_t octaves;   // of turbulence, at least 1
     int32_t count;     // spiral1: its arms; mandel, julia: steps, at least 1
-    int32_t is_solid;  // crackle: each cell has one value
+    uint32_t flags;    // PATTERN_SOLID and the like
     int32_t magnet, power;      // mandel, julia: which of the magnets, 0 for none; else the power of z in each step
     int32_t exterior, interior; // what is told of points that leave, and of those that stay
     double exterior_factor, interior_factor;

@@ -196,6 +196,7 @@ typedef struct Scene {
     NumberPool numbers; // the lists of parts
     FormulaHost *formula_host; // of isosurfaces that want one, its own; NULL: none does
     double text_unit;          // a length of 1 of the scene's text, by which isosurfaces measure; not 1 at another scale
+    Vec3 text_origin;          // where its origin is, which surfaces without coordinates of their own ask for
     ARRAY(Mesh *) meshes; // owned; parts may share one
     size_t mesh_bytes;    // of all of them
     uint32_t plain_mesh_count; // of them, without textures of their own

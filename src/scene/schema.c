@@ -105,6 +105,8 @@ static const SchemaProperty object_modifiers[] = {
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "the texture's pigment"},
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "the texture's bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "the texture's finish; what is not said stays as it was"},
+    {"uv_mapping", TYPE_ACTION, ACTION_SURFACE,
+     .doc = "alone: the texture, which follows, is laid out by the shape's surface coordinates"},
     {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what it is filled with"},
     {"material", TYPE_BLOCK, ACTION_MATERIAL, .doc = "a texture and an interior"},
     {"clipped_by", TYPE_BLOCK, ACTION_CLIP, .doc = "`{ objects }`: only what is inside of all of them is seen"},
@@ -524,7 +526,13 @@ static const SettingsDesc settings_defaults = {
 };
 
 #define AVERAGE {"average", TYPE_ACTION, ACTION_PATTERN, .doc = "all entries of the map at once, by their weights"}
+#define SURFACE                                                                                                        \
+    {                                                                                                                  \
+        "uv_mapping", TYPE_ACTION, ACTION_SURFACE, .doc = "stands first, alone: laid out by surface coordinates"       \
+    }
+
 static const SchemaProperty texture_properties[] = {
+    SURFACE,
     AVERAGE,
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "its colour"},
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
@@ -541,6 +549,7 @@ static const SchemaProperty normal_arguments[] = {
 };
 
 static const SchemaProperty normal_properties[] = {
+    SURFACE,
     AVERAGE,
     {"bump_size", TYPE_NUMBER, AT(NormalDesc, amount), .doc = "how deep"},
     {"accuracy", TYPE_NUMBER, AT(NormalDesc, accuracy), .range = POSITIVE,
@@ -556,6 +565,7 @@ static const SchemaProperty pigment_arguments[] = {
 };
 
 static const SchemaProperty pigment_properties[] = {
+    SURFACE,
     AVERAGE,
     {"color_map", TYPE_BLOCK, ACTION_MAP, .doc = "colours along a pattern of values"},
     {"colour_map", TYPE_BLOCK, ACTION_MAP, .doc = "the same"},

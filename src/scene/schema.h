@@ -145,6 +145,7 @@ typedef enum SchemaAction {
     ACTION_CYLINDER,
     ACTION_CHARSET,
     ACTION_NOISE_GENERATOR,
+    ACTION_SURFACE,
     ACTION_COUNT
 } SchemaAction;
 

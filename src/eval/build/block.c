@@ -60,6 +60,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_CHARSET] = settings_charset_action,
     [ACTION_NOISE_GENERATOR] = settings_generator_action,
     [ACTION_AREA_LIGHT] = light_area_action,
+    [ACTION_SURFACE] = surface_action,
     [ACTION_SHADOWLESS] = light_shadowless_action,
     [ACTION_LOOKS_LIKE] = light_look_action,
 };
@@ -506,6 +507,7 @@ static void read_properties(Block *block)
 bool block_read_items(Block *block, SchemaKind *is)
 {
     SchemaKind kind = block->kind;
+    surface_read_first(block);
     read_name(block);
     read_arguments(block);
     if (bodies[kind] && !block->has_name && !bodies[kind](block)) {

@@ -35,6 +35,7 @@ struct ObjectState {
     Span sky_span;
     uint32_t groups;       // unions so far that say what their members are filled with
     bool may_lack_weights; // the map that is read belongs to `average`
+    bool uses_uv;          // something so far lies on surfaces
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring;
     const UnsupportedDesc *deferred; // the first; NULL: none
@@ -53,6 +54,7 @@ typedef struct Block {
     size_t arguments;  // that were given
     size_t items;      // properties so far
     bool has_name;     // it began with an identifier
+    bool on_surface;   // `uv_mapping` was said: at the start of a texture or part of one, before an object's texture
     bool is_plain, is_patterned; // a texture that begins with a part or a transform, or with a word of a pattern
     bool has_unsupported;
     bool is_lost; // with what it lacks it is nothing
@@ -63,6 +65,21 @@ typedef struct Block {
 
 // The interface of this room to the text.
 extern const EvalBuilder builder_of_scene;
+// surface.c
+
+// `uv_mapping` at the start of a texture, pigment or normal.
+void surface_read_first(Block *block);
+bool surface_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// At the closing brace of what has this pattern: with `uv_mapping` it stays as it is now.
+bool surface_close(Block *block, PatternPart *part) RT_MUST_CHECK;
+bool surface_hold(Eval *ev, Arena *arena, PatternPart *part, Span span) RT_MUST_CHECK;
+// Whether what came since then turns the bumps of what is on the surface, and how.
+bool surface_moves(const PatternPart *part, const Transform *outer, Transform *later);
+// Whether something of a texture is on the surface.
+bool texture_asks_uv(const TextureDesc *texture);
+// Puts all that a texture has onto the surface, with the layers below it if that is said.
+bool texture_put_on_surface(Eval *ev, Arena *arena, TextureDesc *texture, bool with_below, Span span) RT_MUST_CHECK;
+
 // Whether a word of the language begins a block, supported or not.
 bool object_takes_braces(const Eval *ev, Symbol word);
 // Evaluates `word { items }` to a record in the program arena (block.c and the files of the kinds).
@@ -85,6 +102,8 @@ void objects_fini(Eval *ev);
 Transform world_transform(const Eval *ev);
 Transform world_inverse(const Eval *ev);
 double world_scale(const Eval *ev);
+// Tells the scene of it.
+void world_note(Eval *ev);
 
 // block.c
 
@@ -443,7 +462,8 @@ void texture_take_part(TextureDesc *texture, SchemaKind kind, const void *part);
 typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
 // A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. Nothing is
 // reported: SHAPE_NOTHING: *why_nothing says why it has no extent; SHAPE_FAULT: the transform leaves nothing of it.
-// `is_stretched`: it is a sphere that sphere_image_radius has found to be none after its transforms.
+// `is_stretched`: it is a sphere that sphere_image_radius has found to be none after its transforms, or one whose turn
+// is kept.
 ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *transform, bool is_stretched, Part *part,
                        const char **why_nothing) RT_MUST_CHECK;
 // The same with a report of either, a warning or a fault.

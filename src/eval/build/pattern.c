@@ -108,7 +108,7 @@ bool pattern_solid_action(Block *block, const SchemaProperty *property, const As
 {
     (void)property;
     (void)item;
-    block->record->patterned.pattern.is_solid = 1;
+    block->record->patterned.pattern.flags |= PATTERN_SOLID;
     return true;
 }
 
@@ -145,7 +145,7 @@ static void begin_pattern(Pattern *pattern, PatternType type)
         pattern->form = vec3(-1.0, 1.0, 0.0);
         pattern->metric = 2.0;
         pattern->offset = 0.0;
-        pattern->is_solid = 0;
+        pattern->flags &= ~(uint32_t)PATTERN_SOLID;
     }
     if (type == PATTERN_AGATE) {
         pattern->agate_turb = 1.0;
@@ -348,7 +348,7 @@ bool normal_close(Block *block)
     if (part->pattern.type == PATTERN_QUILTED) {
         block->record->normal.slopes = NULL; // POV-Ray looks at the slopes of other patterns only
     }
-    return settle_values(block);
+    return settle_values(block) && surface_close(block, &block->record->patterned);
 }
 
 bool pattern_close(Block *block)
@@ -372,5 +372,11 @@ bool pattern_close(Block *block)
     if (block->kind == KIND_TEXTURE && part->pattern.type != PATTERN_NONE && !part->map) {
         return block_fault(block, DIAG_E0253, block->node->span, "a pattern of textures needs a `texture_map`");
     }
-    return true;
+    if (block->kind != KIND_TEXTURE) {
+        return surface_close(block, &block->record->patterned);
+    }
+    TextureDesc *texture = &block->record->texture;
+    return surface_close(block, &texture->part) &&
+           (!block->on_surface ||
+            texture_put_on_surface(block->ev, block->arena, texture, false, block->node->span));
 }

@@ -7,6 +7,7 @@
 
 #include "render/records/camera.h"
 #include "render/sample/scratch.h"
+#include "render/shade/surface_uv.h"
 #include "scene/part.h"
 
 enum {
@@ -317,7 +318,9 @@ static void follow_surface(Follower *follower, const ShadingPoint *at)
     follower->at = at;
     if (at->material & MATERIAL_COMPOUND) {
         uint32_t texture = p->compounds[at->material & ~MATERIAL_COMPOUND].texture;
-        texture_walk(&p->textures, texture, at->point, p->adc_bailout, follow_layer, follower);
+        Vec3 room;
+        const Vec3 *uv = shade_uv(p, texture, at->shape, at->point, &room);
+        texture_walk(&p->textures, texture, at->point, uv, p->adc_bailout, follow_layer, follower);
     } else {
         const Material *plain = &p->materials[at->material];
         TextureLayer layer = {material_pigment(plain), plain->finish, RECORD_NONE, true, NULL, 1.0, rgb_grey(1.0)};

@@ -14,6 +14,7 @@
 #include "render/sample/sampling_small.h"
 #include "render/sample/tiles.h"
 #include "render/shade/light.h"
+#include "render/shade/surface_uv.h"
 
 // Where a highlight falls to e^-4 when the mirrored direction is turned by more, it is no narrow one.
 static const double TURNED_MOST = 0.2;
@@ -114,8 +115,10 @@ static bool facet_at(const Prepared *p, const Film *film, double x, double y, Fa
     }
     if (material & MATERIAL_COMPOUND) {
         LayerSearch search = {p, facet};
-        (void)texture_walk(&p->textures, p->compounds[material & ~MATERIAL_COMPOUND].texture, facet->surface.point,
-                           p->adc_bailout, visit_layer, &search);
+        uint32_t texture = p->compounds[material & ~MATERIAL_COMPOUND].texture;
+        Vec3 room;
+        const Vec3 *uv = shade_uv(p, texture, facet->hit.shape, facet->surface.point, &room);
+        (void)texture_walk(&p->textures, texture, facet->surface.point, uv, p->adc_bailout, visit_layer, &search);
     } else if (is_sharp(&p->finishes[p->materials[material].finish])) {
         facet->finish = &p->finishes[p->materials[material].finish];
     }

@@ -7,6 +7,7 @@
 // SPDX-License-Identifier: MIT
 #include "math/extreme.h"
 #include "render/shade/shade.h"
+#include "render/shade/surface_uv.h"
 
 enum { ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES, FLAT_FEATURES = ALL_FEATURES & ~RENDER_NORMALS };
 
@@ -103,7 +104,10 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     ShadeMirror own = {.weight = 0.0};
     LayerSum sum = {p, &shared, weight, scatter, statistics, .own = &own};
     *scatter = (ScatterRecord){.reflection_exponent = 1.0, .refraction = refraction_of(p, compound)};
-    TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
+    Vec3 room;
+    const Vec3 *uv = shade_uv(p, compound->texture, at->shape, at->point, &room);
+    TextureThrough through =
+        texture_walk(&p->textures, compound->texture, at->point, uv, p->adc_bailout, add_layer, &sum);
     end_mirrors(&sum, scatter, 1);
     scatter->through = through.light;
     scatter->through_weight = through.weight;
@@ -203,7 +207,9 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
         .refraction = refraction_of(p, compound),
     };
     ways->count = 0;
-    texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_bumpy_layer, &bumps);
+    Vec3 room;
+    const Vec3 *uv = shade_uv(p, compound->texture, at->shape, at->point, &room);
+    texture_walk(&p->textures, compound->texture, at->point, uv, p->adc_bailout, add_bumpy_layer, &bumps);
     end_stack(&bumps);
     if (ways->count == 0) {
         way_for(&bumps, at->normal, 1.0);
@@ -228,9 +234,18 @@ static Rgb gather_layer(void *client, const TextureLayer *layer)
 }
 
 // The factor 45 is POV-Ray's, found by fitting pictures to 1/65535.
-Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, Vec3 direction)
+Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape, Vec3 direction)
 {
+    Vec3 room;
+    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
     Vec3 normal = vec3_dot(surface->normal, direction) > 0.0 ? vec3_neg(surface->normal) : surface->normal;
     CausticSum sum = {&p->textures, normal, direction, 45.0 * p->interiors[compound->interior].caustics};
-    return texture_walk(&p->textures, compound->texture, surface->point, 0.0, gather_layer, &sum).light;
+    return texture_walk(&p->textures, compound->texture, surface->point, uv, 0.0, gather_layer, &sum).light;
+}
+
+Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape)
+{
+    Vec3 room;
+    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
+    return texture_walk(&p->textures, compound->texture, surface->point, uv, 0.0, NULL, NULL).light;
 }

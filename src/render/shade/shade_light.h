@@ -100,18 +100,21 @@ RT_ALWAYS_INLINE Rgb shade_shadow_crossed(const Prepared *p, const Surface *surf
 }
 
 // What a surface whose interior has caustics multiplies light with that goes through it. In compound.c.
-Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, Vec3 direction);
+Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape, Vec3 direction);
+// The same of any other compound.
+Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape);
 
 // What a surface multiplies light with that goes through it in a direction.
-RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface, Vec3 direction)
+RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface, ShapeId shape,
+                                           Vec3 direction)
 {
     if ((features & RENDER_TEXTURES) && (surface->material & MATERIAL_COMPOUND)) {
         const Compound *compound = &p->compounds[surface->material & ~MATERIAL_COMPOUND];
         if ((features & RENDER_INTERIORS) && compound->interior != RECORD_NONE &&
             p->interiors[compound->interior].caustics != 0.0) {
-            return shade_caustics(p, compound, surface, direction);
+            return shade_caustics(p, compound, surface, shape, direction);
         }
-        return texture_walk(&p->textures, compound->texture, surface->point, 0.0, NULL, NULL).light;
+        return shade_layers_through(p, compound, surface, shape);
     }
     return texture_pigment_through(material_pigment(&p->materials[surface->material]));
 }
@@ -179,7 +182,7 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, c
     uint32_t kept = has_interiors ? at->media->count : 0;
     for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
         Surface surface = geometry_surface(p->geometry, features, ray, hit);
-        Rgb through = shade_surface_through(p, features, &surface, ray.direction);
+        Rgb through = shade_surface_through(p, features, &surface, hit.shape, ray.direction);
         if (rgb_is_black(through) || passed > p->crossings_max) {
             share = rgb_grey(0.0);
             break;

@@ -124,6 +124,76 @@ static bool find_opaque(TextureTable *table, const Pigment *pigment)
     return is_opaque;
 }
 
+// ---- what asks for surface coordinates
+
+// Of each record a byte, 1 if it asks for them. What a record is made of stands before it.
+typedef struct Askers {
+    const Scene *scene;
+    uint8_t *patterns, *normals, *textures;
+} Askers;
+
+static bool pigment_asks(const Askers *askers, const PatternedPigment *record)
+{
+    const PigmentEntry *entries = askers->scene->pigment_entries.items;
+    bool asks = record->pattern.flags & PATTERN_ON_SURFACE;
+    for (uint32_t at = record->entries; !asks && at != RECORD_NONE; at = entries[at].next) {
+        asks = entries[at].pigment.pattern != RECORD_NONE && askers->patterns[entries[at].pigment.pattern];
+    }
+    return asks;
+}
+
+static bool normal_asks(const Askers *askers, const Normal *record)
+{
+    const NormalEntry *entries = askers->scene->normal_entries.items;
+    bool asks = record->pattern.flags & PATTERN_ON_SURFACE;
+    for (uint32_t at = record->entries; !asks && at != RECORD_NONE; at = entries[at].next) {
+        asks = askers->normals[entries[at].normal];
+    }
+    return asks;
+}
+
+static bool texture_asks(const Askers *askers, const Texture *record)
+{
+    const TextureEntry *entries = askers->scene->texture_entries.items;
+    uint32_t pattern = record->pigment.pattern;
+    bool asks = (record->pattern.flags & PATTERN_ON_SURFACE) || (pattern != RECORD_NONE && askers->patterns[pattern]) ||
+                (record->normal != RECORD_NONE && askers->normals[record->normal]) ||
+                (record->below != RECORD_NONE && askers->textures[record->below]);
+    for (uint32_t at = record->entries; !asks && at != RECORD_NONE; at = entries[at].next) {
+        asks = askers->textures[entries[at].texture];
+    }
+    return asks;
+}
+
+static bool is_on_surface(const Pattern *pattern)
+{
+    return pattern->flags & PATTERN_ON_SURFACE;
+}
+
+static bool find_on_surface(TextureTable *table)
+{
+    const Scene *scene = table->scene;
+    if (!any_pattern(scene, is_on_surface)) {
+        return true;
+    }
+    Askers askers = {scene, calloc(scene->patterns.count + 1, 1), calloc(scene->normals.count + 1, 1),
+                     calloc(scene->textures.count + 1, 1)};
+    bool has_memory = askers.patterns && askers.normals && askers.textures;
+    for (size_t i = 0; has_memory && i < scene->patterns.count; i++) {
+        askers.patterns[i] = pigment_asks(&askers, &scene->patterns.items[i]);
+    }
+    for (size_t i = 0; has_memory && i < scene->normals.count; i++) {
+        askers.normals[i] = normal_asks(&askers, &scene->normals.items[i]);
+    }
+    for (size_t i = 0; has_memory && i < scene->textures.count; i++) {
+        askers.textures[i] = texture_asks(&askers, &scene->textures.items[i]);
+    }
+    free(askers.patterns);
+    free(askers.normals);
+    table->on_surface = askers.textures;
+    return has_memory;
+}
+
 #define ALONG_RECORDS(list, type, member)                                                                              \
     (&(AlongRecords){(list).items, (list).count, sizeof(type), offsetof(type, member)})
 
@@ -174,6 +244,10 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     for (size_t i = 0; i < scene->normals.count; i++) {
         table->normal_to_pattern[i] = way_back(&scene->normals.items[i].to_world);
     }
+    if (!find_on_surface(table)) {
+        texture_table_fini(table);
+        return false;
+    }
     if (scene->formula_host) {
         formula_paint(scene->formula_host, &table->source);
     }
@@ -197,6 +271,7 @@ void texture_table_fini(TextureTable *table)
     free(table->waves);
     free(table->to_pattern);
     free(table->opaque);
+    free(table->on_surface);
     free(table->texture_to_pattern);
     free(table->normal_to_pattern);
     free(table->warp_back);
@@ -232,12 +307,12 @@ static Rgbft blend(Rgbft a, double share, Rgbft b)
 }
 
 // All entries at once; their values are weights. In single precision, too.
-static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point)
+static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point, const Vec3 *uv)
 {
     const PigmentEntry *entries = table->scene->pigment_entries.items;
     float sum[5] = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F}, weights = 0.0F;
     for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
-        Rgbft colour = texture_pigment(table, &entries[at].pigment, point);
+        Rgbft colour = texture_pigment_on(table, &entries[at].pigment, point, uv);
         float weight = (float)entries[at].at;
         weights += weight;
         sum[0] += weight * (float)colour.red;
@@ -251,18 +326,20 @@ static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point)
 }
 
 // What a pattern's map has for a value, at a point in its space.
-static Rgbft mapped(const TextureTable *table, uint32_t index, Vec3 point, double value)
+static Rgbft mapped(const TextureTable *table, uint32_t index, Vec3 point, const Vec3 *uv, double value)
 {
     const PigmentEntry *entries = table->scene->pigment_entries.items;
     AlongPlace place = along_find(&table->pattern_lists[index], value);
-    Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
-    return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
-                             : low;
+    Rgbft low = texture_pigment_on(table, &entries[place.low].pigment, point, uv);
+    return place.share > 0.0
+               ? blend(low, place.share, texture_pigment_on(table, &entries[place.high].pigment, point, uv))
+               : low;
 }
 
-static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
+static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer, const Vec3 *uv)
 {
     const PatternedPigment *record = &table->scene->patterns.items[index];
+    outer = texture_space(&record->pattern, outer, uv);
     // Where turbulence moves a point, the entries of the map see it moved, too.
     Vec3 point = pattern_moved(&record->pattern, &table->source, transform_point(&table->to_pattern[index], outer));
     PatternForm form = pattern_info((PatternType)record->pattern.type)->form;
@@ -270,14 +347,14 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
         return image_colour(&table->images[record->pattern.image], point);
     }
     if (form == PATTERN_OF_ALL) {
-        return average(table, record->entries, point);
+        return average(table, record->entries, point, uv);
     }
-    return mapped(table, index, point, pattern_value_moved(&record->pattern, &table->source, point));
+    return mapped(table, index, point, uv, pattern_value_moved(&record->pattern, &table->source, point));
 }
 
-Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
+Rgbft texture_pigment_on(const TextureTable *table, const Pigment *pigment, Vec3 point, const Vec3 *uv)
 {
-    return pigment->pattern == RECORD_NONE ? pigment_colour(pigment) : patterned(table, pigment->pattern, point);
+    return pigment->pattern == RECORD_NONE ? pigment_colour(pigment) : patterned(table, pigment->pattern, point, uv);
 }
 
 bool texture_goes_abreast(const TextureTable *table, const Pigment *pigment)
@@ -298,7 +375,7 @@ void texture_pigments(const TextureTable *table, const Pigment *pigment, unsigne
     }
     pattern_values_moved(pattern, &table->source, count, moved, values);
     for (unsigned i = 0; i < count; i++) {
-        colours[i] = mapped(table, pigment->pattern, moved[i], values[i]);
+        colours[i] = mapped(table, pigment->pattern, moved[i], NULL, values[i]);
     }
 }
 
@@ -384,8 +461,9 @@ static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, 
 {
     const Texture *texture = &walk->table->scene->textures.items[index];
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
-    Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer->point);
-    TexturePlace here = {pattern_moved(&texture->pattern, &walk->table->source, point), index, outer};
+    Vec3 space = texture_space(&texture->pattern, outer->point, outer->uv);
+    Vec3 point = transform_point(&walk->table->texture_to_pattern[index], space);
+    TexturePlace here = {pattern_moved(&texture->pattern, &walk->table->source, point), index, outer, outer->uv};
     if (texture_is_of_fields(texture)) {
         walk_fields(walk, texture, &here, part, above);
         return;
@@ -410,7 +488,7 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
             walk_pattern(walk, index, place, part, above); // the lowest one, by the evaluator's rule
             return;
         }
-        Rgbft pigment = texture_pigment(walk->table, &texture->pigment, place->point);
+        Rgbft pigment = texture_pigment_on(walk->table, &texture->pigment, place->point, place->uv);
         TextureLayer layer = {pigment, texture->finish, texture->normal, index == top, place, part, above};
         Rgb left = walk->visit ? walk->visit(walk->client, &layer) : rgb_grey(1.0);
         above = rgb_mul(rgb_mul(above, left), texture_pigment_through(pigment));
@@ -423,11 +501,11 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
     walk->through.weight = greater_of(walk->through.weight, rgb_max_abs(above));
 }
 
-TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
-                            void *client)
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, const Vec3 *uv, double cut,
+                            TextureVisit visit, void *client)
 {
     Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0, 0.0}};
-    TexturePlace place = {vec3_scale(table->scale, point), RECORD_NONE, NULL};
+    TexturePlace place = {vec3_scale(table->scale, point), RECORD_NONE, NULL, uv};
     walk_layers(&walk, texture, &place, 1.0, rgb_grey(1.0));
     return walk.through;
 }

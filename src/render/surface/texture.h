@@ -28,6 +28,7 @@ struct TextureTable {
     bool goes_abreast;             // texture_goes_abreast of some pigment
     Transform *to_pattern;         // for each of the scene's patterns
     uint8_t *opaque;               // likewise: what texture_is_opaque knows of it
+    uint8_t *on_surface;           // for each of its textures: 1 if it asks for surface coordinates; NULL: none does
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern
     PreparedImage *images;         // for each of its image maps
     Transform *normal_to_pattern;  // for each of its normals
@@ -47,8 +48,19 @@ size_t texture_table_bytes(const TextureTable *table);
 // Whether some picture lets light through.
 bool texture_table_has_transparent_image(const TextureTable *table);
 
-// The colour of a pigment at a point in the scene's lengths.
-Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point);
+// Whether a texture asks for surface coordinates.
+static inline bool texture_is_on_surface(const TextureTable *table, uint32_t texture)
+{
+    return RT_UNLIKELY(table->on_surface != NULL) && table->on_surface[texture];
+}
+
+// The colour of a pigment at a point in the scene's lengths; `uv` are the surface coordinates there, which may be NULL
+// where it does not ask for any.
+Rgbft texture_pigment_on(const TextureTable *table, const Pigment *pigment, Vec3 point, const Vec3 *uv);
+static inline Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
+{
+    return texture_pigment_on(table, pigment, point, NULL);
+}
 // Whether texture_pigments takes less time for a pigment than one point after another.
 bool texture_goes_abreast(const TextureTable *table, const Pigment *pigment);
 // The colours of such a pigment at some points, TEXTURE_ABREAST at most.
@@ -67,6 +79,7 @@ struct TexturePlace {
     Vec3 point;
     uint32_t texture;          // the one with the pattern; RECORD_NONE: the scene's own lengths
     const TexturePlace *outer; // the same point in the space around it; NULL: there is none
+    const Vec3 *uv;            // the surface coordinates there, as of texture_walk
 };
 
 // What a pigment multiplies light with that goes through it.
@@ -105,17 +118,18 @@ typedef struct TextureThrough {
 } TextureThrough;
 
 // Calls `visit`, unless it is NULL, for each surface seen at a point of prepared space, from top to bottom. Light that
-// is darker than `cut` in grey does not continue to the layer below or out of the last one.
-TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
-                            void *client);
+// is darker than `cut` in grey does not continue to the layer below or out of the last one. `uv` are the surface
+// coordinates there, which may be NULL unless texture_is_on_surface.
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, const Vec3 *uv, double cut,
+                            TextureVisit visit, void *client);
 
-// A texture that is one layer without bumps; NULL where there is more to walk.
+// A texture that is one layer without bumps and surface coordinates; NULL where there is more to walk.
 static inline const Texture *texture_single(const TextureTable *table, uint32_t index)
 {
     const Texture *texture = &table->scene->textures.items[index];
     bool is_single =
         texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE;
-    return is_single ? texture : NULL;
+    return is_single && !texture_is_on_surface(table, index) ? texture : NULL;
 }
 
 // The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1.
