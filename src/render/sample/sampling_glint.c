@@ -89,8 +89,7 @@ static Rgb visit_layer(void *client, const TextureLayer *layer)
     if (!search->facet->finish && is_sharp(finish)) {
         search->facet->finish = finish;
         if (layer->normal != RECORD_NONE) {
-            search->facet->normal =
-                texture_normal(&search->prepared->textures, layer, search->facet->normal);
+            search->facet->normal = texture_normal(layer, search->facet->normal);
         }
     }
     return rgb_grey(1.0);
@@ -114,8 +113,9 @@ static bool facet_at(const Prepared *p, const Film *film, double x, double y, Fa
     }
     if (material & MATERIAL_COMPOUND) {
         LayerSearch search = {p, facet};
-        (void)texture_walk(&p->textures, p->compounds[material & ~MATERIAL_COMPOUND].texture, facet->surface.point,
-                           p->adc_bailout, visit_layer, &search);
+        TextureSight sight = {facet->surface.point, &facet->normal, &facet->direction, false};
+        (void)texture_walk(&p->textures, p->compounds[material & ~MATERIAL_COMPOUND].texture, sight, p->adc_bailout,
+                           visit_layer, &search);
     } else if (is_sharp(&p->finishes[p->materials[material].finish])) {
         facet->finish = &p->finishes[p->materials[material].finish];
     }

@@ -94,6 +94,11 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
     return left;
 }
 
+static TextureSight sight_of(const ShadingPoint *at)
+{
+    return (TextureSight){at->point, &at->normal, &at->direction, false};
+}
+
 Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, ScatterRecord *scatter,
                    RenderStatistics *statistics)
 {
@@ -103,7 +108,8 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     ShadeMirror own = {.weight = 0.0};
     LayerSum sum = {p, &shared, weight, scatter, statistics, .own = &own};
     *scatter = (ScatterRecord){.reflection_exponent = 1.0, .refraction = refraction_of(p, compound)};
-    TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
+    TextureThrough through =
+        texture_walk(&p->textures, compound->texture, sight_of(at), p->adc_bailout, add_layer, &sum);
     end_mirrors(&sum, scatter, 1);
     scatter->through = through.light;
     scatter->through_weight = through.weight;
@@ -175,7 +181,7 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     LayerSum *sum = &bumps->sum;
     ShadingPoint at = *sum->at;
     if (layer->normal != RECORD_NONE) {
-        at.normal = texture_normal(&sum->p->textures, layer, at.normal);
+        at.normal = texture_normal(layer, at.normal);
     }
     if (layer->is_top) {
         begin_stack(bumps, layer, at.normal);
@@ -203,7 +209,7 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
         .refraction = refraction_of(p, compound),
     };
     ways->count = 0;
-    texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_bumpy_layer, &bumps);
+    texture_walk(&p->textures, compound->texture, sight_of(at), p->adc_bailout, add_bumpy_layer, &bumps);
     end_stack(&bumps);
     if (ways->count == 0) {
         way_for(&bumps, at->normal, 1.0);
@@ -214,7 +220,6 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
 // ---- caustics
 
 typedef struct CausticSum {
-    const TextureTable *table;
     Vec3 normal, direction;
     double exponent;
 } CausticSum;
@@ -223,7 +228,7 @@ typedef struct CausticSum {
 static Rgb gather_layer(void *client, const TextureLayer *layer)
 {
     const CausticSum *sum = client;
-    Vec3 normal = layer->normal != RECORD_NONE ? texture_normal(sum->table, layer, sum->normal) : sum->normal;
+    Vec3 normal = layer->normal != RECORD_NONE ? texture_normal(layer, sum->normal) : sum->normal;
     return rgb_grey(1.0 + pow(fabs(vec3_dot(normal, sum->direction)), sum->exponent));
 }
 
@@ -231,6 +236,7 @@ static Rgb gather_layer(void *client, const TextureLayer *layer)
 Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, Vec3 direction)
 {
     Vec3 normal = vec3_dot(surface->normal, direction) > 0.0 ? vec3_neg(surface->normal) : surface->normal;
-    CausticSum sum = {&p->textures, normal, direction, 45.0 * p->interiors[compound->interior].caustics};
-    return texture_walk(&p->textures, compound->texture, surface->point, 0.0, gather_layer, &sum).light;
+    CausticSum sum = {normal, direction, 45.0 * p->interiors[compound->interior].caustics};
+    TextureSight sight = {surface->point, &normal, &direction, true};
+    return texture_walk(&p->textures, compound->texture, sight, 0.0, gather_layer, &sum).light;
 }

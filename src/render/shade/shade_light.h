@@ -111,7 +111,10 @@ RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features,
             p->interiors[compound->interior].caustics != 0.0) {
             return shade_caustics(p, compound, surface, direction);
         }
-        return texture_walk(&p->textures, compound->texture, surface->point, 0.0, NULL, NULL).light;
+        bool turns = p->textures.faces && vec3_dot(surface->normal, direction) > 0.0;
+        Vec3 normal = turns ? vec3_neg(surface->normal) : surface->normal;
+        TextureSight sight = {surface->point, &normal, &direction, true};
+        return texture_walk(&p->textures, compound->texture, sight, 0.0, NULL, NULL).light;
     }
     return texture_pigment_through(material_pigment(&p->materials[surface->material]));
 }

@@ -32,6 +32,7 @@ typedef struct NoiseSource {
     const Transform *warp_back; // of each warp, into the space behind it
     const FormulaStep *steps;
     const struct TextureTable *table;
+    const struct Facing *facing; // of a surface; NULL where there is none
 } NoiseSource;
 
 // The point at which a pattern is looked at: moved, if it has turbulence that is no part of its formula.

@@ -34,6 +34,7 @@ struct TextureTable {
     const AlongList *pattern_lists, *texture_lists, *normal_lists, *slope_lists; // for each of these, too
     Arena along;                                                                 // what these refer to
     Transform *warp_back; // for each of its warps
+    bool faces;           // some pattern asks how a surface lies
 };
 
 // Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what
@@ -91,6 +92,7 @@ typedef struct TextureLayer {
     const TexturePlace *place;
     double part; // of the texture in a map, 1 without a map
     Rgb above;   // what the layers above let through
+    const TextureTable *table; // which knows how the surface lies
 } TextureLayer;
 
 // Returns the share of light, by colour, that continues to what is below, beside what the pigment lets through.
@@ -104,22 +106,35 @@ typedef struct TextureThrough {
     double weight;
 } TextureThrough;
 
-// Calls `visit`, unless it is NULL, for each surface seen at a point of prepared space, from top to bottom. Light that
-// is darker than `cut` in grey does not continue to the layer below or out of the last one.
-TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
-                            void *client);
+// A point of prepared space, the surface's normal there, of length 1 and turned to where the ray comes from, and the
+// ray's direction.
+typedef struct TextureSight {
+    Vec3 point;
+    const Vec3 *normal, *direction;
+    bool is_shadow; // light goes through
+} TextureSight;
 
-// A texture that is one layer without bumps; NULL where there is more to walk.
+// Calls `visit`, unless it is NULL, for each surface seen at a point, from top to bottom. Light that is darker than
+// `cut` in grey does not continue to the layer below or out of the last one.
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, TextureSight sight, double cut,
+                            TextureVisit visit, void *client);
+
+// A texture that is one layer without bumps, and asks for nothing but the point; NULL where there is more to walk.
 static inline const Texture *texture_single(const TextureTable *table, uint32_t index)
 {
     const Texture *texture = &table->scene->textures.items[index];
     bool is_single =
-        texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE;
+        texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE &&
+        !table->faces;
     return is_single ? texture : NULL;
 }
 
 // The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1.
 // In normal.c.
-Vec3 texture_normal(const TextureTable *table, const TextureLayer *layer, Vec3 normal);
+Vec3 texture_normal(const TextureLayer *layer, Vec3 normal);
+// The same in the space of the pattern of textures around the layer, if there is one.
+Vec3 texture_normal_inside(const TextureLayer *layer, Vec3 normal);
+// What one of the scene's normals makes of a direction of length 1 at a point in the scene's lengths.
+Vec3 texture_bent(const TextureTable *table, uint32_t normal, Vec3 point, Vec3 direction);
 
 #endif
