@@ -389,6 +389,7 @@ lang_cases = \
   %D%/lang/hints.test \
   %D%/lang/includes.test \
   %D%/lang/interior.test \
+  %D%/lang/pattern_slope.test \
   %D%/lang/lenient.test \
   %D%/lang/light.test \
   %D%/lang/limits.test \

@@ -61,7 +61,7 @@ static uint64_t crossings_most(const Scene *scene)
 
 static PreparedCamera prepare_camera(const Camera *camera, int exponent)
 {
-    PreparedCamera out = {.type = camera->type, .location = vec3_ldexp(camera->location, -exponent)};
+    PreparedCamera out = {.type = camera->type, .through = camera->type, .location = vec3_ldexp(camera->location, -exponent)};
     if (camera->type == CAMERA_ORTHOGRAPHIC) {
         out.direction = unit(camera->direction);
         out.right = vec3_ldexp(camera->right, -exponent);
@@ -318,6 +318,11 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     geometry_set_abandon(p->geometry, p->abandon);
     p->length = ldexp(1.0, exponent);
     p->camera = prepare_camera(&scene->camera, exponent);
+    if (scene->camera.bumps) {
+        p->camera.type = CAMERA_BUMPY;
+        p->camera.textures = &p->textures;
+        p->camera.bumps = scene->camera.bumps - 1;
+    }
     p->background = rgb_scale(1.0 - scene->background.transmit, rgbft_rgb(scene->background));
     p->is_old = scene->settings.version < 3.7;
     p->max_trace_level = scene->settings.max_trace_level;

@@ -30,6 +30,7 @@ typedef struct CameraDesc {
     Vec3 focal_point;
     bool has_focal_point;
     double focal_distance; // when complete
+    const struct NormalDesc *normal; // NULL: no bumps
 } CameraDesc;
 
 // A picture as it is laid over a surface.
@@ -50,6 +51,13 @@ struct WarpDesc {
     bool types[WARP_TYPES]; // while it is read
     unsigned count; // with those before it
 };
+
+// What stands in the braces of the pattern `slope`.
+typedef struct SlopeDesc {
+    Vec3 direction, altitude; // a point, where is_point
+    double low, high, low_altitude, high_altitude; // that become 0 and 1, where they differ
+    bool has_direction, is_point;
+} SlopeDesc;
 
 // A pattern in space and what lies along it; with PATTERN_NONE, what the pigment or texture around it says.
 typedef struct PatternMap PatternMap;
@@ -466,6 +474,7 @@ typedef union Desc {
     MaterialDesc material;
     TransformDesc transformation;
     WarpDesc warp;
+    SlopeDesc slope;
     UnsupportedDesc unsupported;
 } Desc;
 

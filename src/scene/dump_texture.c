@@ -93,6 +93,25 @@ static void dump_surface_word(const Pattern *pattern, TextBuffer *out)
     text_append(out, pattern->flags & PATTERN_ON_SURFACE ? "  uv_mapping\n" : "");
 }
 
+static void dump_range(double low, double high, TextBuffer *out)
+{
+    if (low != high) {
+        dump_number(out, ", ", low);
+        dump_number(out, ", ", high);
+    }
+}
+
+static void dump_slope(const Pattern *pattern, TextBuffer *out)
+{
+    dump_vector(out, pattern->flags & PATTERN_TO_POINT ? " { point_at " : " { ", pattern->vector);
+    dump_range(pattern->metric, pattern->offset, out);
+    if (vec3_max_abs(pattern->form) > 0.0) {
+        dump_vector(out, " altitude ", pattern->form);
+        dump_range(pattern->exterior_factor, pattern->interior_factor, out);
+    }
+    text_append(out, " }");
+}
+
 static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBuffer *out)
 {
     dump_surface_word(pattern, out);
@@ -107,6 +126,9 @@ static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBu
     text_printf(out, pattern->magnet ? " %s" : "  %s", info->word);
     if (info->has_direction) {
         dump_vector(out, " ", pattern->vector);
+    }
+    if (pattern->type == PATTERN_SLOPE) {
+        dump_slope(pattern, out);
     }
     if (info->has_count) {
         text_printf(out, info->has_direction ? ", %d" : " %d", (int)pattern->count);

@@ -62,6 +62,9 @@ static const SchemaProperty pattern_modifiers[] = {
     {"spiral2", TYPE_ACTION, ACTION_PATTERN, .doc = "so many arms that wind around z, to both sides"},
     {"function", TYPE_ACTION, ACTION_FUNCTION, .doc = "`{ … }` of x, y and z: what it gives there"},
     {"pigment_pattern", TYPE_BLOCK, ACTION_PATTERN, .doc = "`{ pigment }`: how bright its colour is"},
+    {"slope", TYPE_ACTION, ACTION_SLOPE,
+     .doc = "a direction, or `{ … }`: from 0, where the surface faces away from it, to 1"},
+    {"aoi", TYPE_ACTION, ACTION_PATTERN, .doc = "from 0.5, where the ray grazes the surface, to 1, where it is upright"},
     {"warp", TYPE_BLOCK, ACTION_WARP, .doc = "`{ … }`: bends space, as transforms do in the order in which they stand"},
     {"mandel", TYPE_ACTION, ACTION_PATTERN, .doc = "the Mandelbrot set in x and y, after so many steps"},
     {"julia", TYPE_ACTION, ACTION_PATTERN, .doc = "the Julia set of a complex number, after so many steps"},
@@ -138,6 +141,8 @@ static const SchemaProperty camera_properties[] = {
      .doc = "of a dome: half a turn across, cut below; black outside of it"},
     {"cylinder", TYPE_ACTION, ACTION_CYLINDER, .is_first = true,
      .doc = "1, 3: an upright one; 2, 4: a lying one; `angle` around, 90"},
+    {"normal", TYPE_BLOCK, ACTION_CAMERA_NORMAL,
+     .doc = "bumps that turn rays; the picture's corners are <-0.5, -0.5, 0> and <0.5, 0.5, 0>"},
     {"location", TYPE_VECTOR, AT(CameraDesc, location), .doc = "where the eye is"},
     {"direction", TYPE_VECTOR, AT(CameraDesc, direction), .doc = "from the eye to the middle of the picture"},
     {"right", TYPE_VECTOR, AT(CameraDesc, right), GIVEN(CameraDesc, has_right),
@@ -574,6 +579,23 @@ static const SchemaProperty pigment_properties[] = {
     {"quick_color", TYPE_COLOUR, AT(PigmentDesc, quick_colour), .doc = "accepted; changes no picture"},
     {"quick_colour", TYPE_COLOUR, AT(PigmentDesc, quick_colour), .doc = "accepted; changes no picture"},
 };
+
+#define SLOPE_AT(field) .at = (uint16_t)offsetof(SlopeDesc, field)
+
+static const SchemaProperty slope_arguments[] = {
+    {"direction", TYPE_VECTOR, SLOPE_AT(direction), .is_optional = true,
+     .doc = "what the surface may face"},
+    {"low slope", TYPE_NUMBER, SLOPE_AT(low), .is_optional = true, .doc = "the slope, from 0 to 1, that becomes 0 …"},
+    {"high slope", TYPE_NUMBER, SLOPE_AT(high), .is_optional = true, .doc = "… and 1"},
+};
+
+static const SchemaProperty slope_properties[] = {
+    {"point_at", TYPE_ACTION, ACTION_SLOPE_ITEM, .doc = "instead: a point, and then such slopes"},
+    {"altitude", TYPE_ACTION, ACTION_SLOPE_ITEM,
+     .doc = "a vector along which heights count, too; then those that become 0 and 1"},
+};
+
+static const SlopeDesc slope_defaults = {.high_altitude = 0.0};
 
 #define WARP_AT(field) .at = (uint16_t)offsetof(WarpDesc, warp.field)
 
@@ -1228,6 +1250,13 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .defaults = &warp_defaults,
                    .groups = {LIST(warp_properties)},
                    .doc = "In what has a pattern: one of `turbulence`, `repeat`, `black_hole` and the mappings."},
+    [KIND_SLOPE] = {.word = "slope",
+                    .what = "a slope",
+                    .size = sizeof(SlopeDesc),
+                    .defaults = &slope_defaults,
+                    .arguments = LIST(slope_arguments),
+                    .groups = {LIST(slope_properties)},
+                    .doc = "In what has a pattern: how a surface lies."},
     [KIND_PATTERN] = {.word = "pattern",
                       .what = "a pattern",
                       .size = sizeof(PatternPart),

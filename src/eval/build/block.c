@@ -54,11 +54,14 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_TILES] = tiles_action,
 
     [ACTION_WARP_TYPE] = warp_type_action,
+    [ACTION_SLOPE] = slope_action,
+    [ACTION_SLOPE_ITEM] = slope_item_action,
     [ACTION_FUNCTION] = pattern_function_action,
     [ACTION_IRID] = finish_irid_action,
     [ACTION_CYLINDER] = camera_cylinder_action,
     [ACTION_CHARSET] = settings_charset_action,
     [ACTION_NOISE_GENERATOR] = settings_generator_action,
+    [ACTION_CAMERA_NORMAL] = camera_normal_action,
     [ACTION_AREA_LIGHT] = light_area_action,
     [ACTION_SURFACE] = surface_action,
     [ACTION_SHADOWLESS] = light_shadowless_action,
@@ -106,6 +109,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_TRANSFORM] = transform_close,
     [KIND_PATTERN] = pattern_close,
     [KIND_WARP] = warp_close,
+    [KIND_SLOPE] = slope_close,
     [KIND_MESH] = mesh_close,
     [KIND_MESH2] = mesh_close,
     [KIND_HEIGHT_FIELD] = height_field_close,
@@ -419,7 +423,7 @@ static void refuse_value(Block *block, const AstNode *item)
 static bool takes_braces(const SchemaProperty *property)
 {
     return property->type == TYPE_BLOCK || property->action == ACTION_TRANSFORM ||
-           property->action == ACTION_REFLECTION;
+           property->action == ACTION_REFLECTION || property->action == ACTION_SLOPE;
 }
 
 static bool may_stand_here(Block *block, const SchemaProperty *property, const AstNode *item)

@@ -33,6 +33,7 @@ struct ObjectState {
     FinishMemo finish;
     const SkySphereDesc *sky; // the last one so far, in the program's memory; NULL: none
     Span sky_span;
+    const NormalDesc *camera_normal; // of the last camera so far, likewise
     uint32_t groups;       // unions so far that say what their members are filled with
     bool may_lack_weights; // the map that is read belongs to `average`
     bool uses_uv;          // something so far lies on surfaces
@@ -206,8 +207,17 @@ bool block_begins_like_colour(Block *block, const AstNode *item);
 bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // Whether a pattern or a map may follow what there is: a texture that begins with an identifier takes no other.
 bool pattern_may_follow(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// A pattern begins, with its words as they are before they are said; false: it cannot stand in this block.
+bool pattern_begin(Block *block, PatternType type, const AstNode *item) RT_MUST_CHECK;
+// The depth that may follow the pattern of a normal, unless normals do.
+bool pattern_read_amount(Block *block) RT_MUST_CHECK;
 // A function and what it gives at a point.
 bool pattern_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+
+// pattern_slope.c
+bool slope_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool slope_item_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool slope_close(Block *block) RT_MUST_CHECK;
 
 // pattern_map.c
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -235,6 +245,8 @@ bool formula_make(Eval *ev, Scene *scene, const Function *function, SchemaKind k
 // A scene's record of a pigment that is moved by `outer`.
 bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Transform *outer, Span span,
                    Pigment *out) RT_MUST_CHECK;
+// A scene's record of bumps that are no texture's, in a space of their own.
+bool normal_place(Eval *ev, Scene *scene, const NormalDesc *normal, Span span, uint32_t *index) RT_MUST_CHECK;
 // True when nothing below a texture can be seen: it is of one colour that lets no light through.
 bool texture_hides_all(const TextureDesc *texture);
 // The scene's record of a texture that is moved by `outer`, and of what is inside (NULL: nothing was said).
@@ -267,6 +279,9 @@ bool camera_blur_action(Block *block, const SchemaProperty *property, const AstN
 bool camera_look_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 void camera_transform(Block *block, const Transform *transform);
 bool camera_close(Block *block) RT_MUST_CHECK;
+bool camera_normal_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// The bumps of the last camera, once the scene has all else.
+bool camera_finish(Eval *ev) RT_MUST_CHECK;
 bool camera_place(Eval *ev, const CameraDesc *camera, Span span) RT_MUST_CHECK;
 
 // light.c

@@ -492,6 +492,17 @@ bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Tra
     return is_added && patterns_fit(&builder, patterns);
 }
 
+bool normal_place(Eval *ev, Scene *scene, const NormalDesc *normal, Span span, uint32_t *index)
+{
+    SharedMaps shared = {0};
+    Builder builder = {ev, scene, span, &shared};
+    Transform identity = transform_identity();
+    uint64_t patterns;
+    bool is_added = add_normal(&builder, normal, &identity, false, index, &patterns);
+    shared_maps_fini(&shared);
+    return is_added && patterns_fit(&builder, patterns);
+}
+
 bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer, const InteriorDesc *interior,
                     bool is_hollow, Span span, MaterialIndex *index)
 {

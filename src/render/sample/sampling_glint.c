@@ -90,8 +90,7 @@ static Rgb visit_layer(void *client, const TextureLayer *layer)
     if (!search->facet->finish && is_sharp(finish)) {
         search->facet->finish = finish;
         if (layer->normal != RECORD_NONE) {
-            search->facet->normal =
-                texture_normal(&search->prepared->textures, layer, search->facet->normal);
+            search->facet->normal = texture_normal(layer, search->facet->normal);
         }
     }
     return rgb_grey(1.0);
@@ -118,7 +117,8 @@ static bool facet_at(const Prepared *p, const Film *film, double x, double y, Fa
         uint32_t texture = p->compounds[material & ~MATERIAL_COMPOUND].texture;
         Vec3 room;
         const Vec3 *uv = shade_uv(p, texture, facet->hit.shape, facet->surface.point, &room);
-        (void)texture_walk(&p->textures, texture, facet->surface.point, uv, p->adc_bailout, visit_layer, &search);
+        TextureSight sight = {facet->surface.point, uv, &facet->normal, &facet->direction, false};
+        (void)texture_walk(&p->textures, texture, sight, p->adc_bailout, visit_layer, &search);
     } else if (is_sharp(&p->finishes[p->materials[material].finish])) {
         facet->finish = &p->finishes[p->materials[material].finish];
     }

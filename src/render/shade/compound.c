@@ -95,6 +95,13 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
     return left;
 }
 
+// `room` is for surface coordinates, if the texture asks for them.
+static TextureSight sight_of(const Prepared *p, const Compound *compound, const ShadingPoint *at, Vec3 *room)
+{
+    const Vec3 *uv = shade_uv(p, compound->texture, at->shape, at->point, room);
+    return (TextureSight){at->point, uv, &at->normal, &at->direction, false};
+}
+
 Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, ScatterRecord *scatter,
                    RenderStatistics *statistics)
 {
@@ -105,9 +112,8 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     LayerSum sum = {p, &shared, weight, scatter, statistics, .own = &own};
     *scatter = (ScatterRecord){.reflection_exponent = 1.0, .refraction = refraction_of(p, compound)};
     Vec3 room;
-    const Vec3 *uv = shade_uv(p, compound->texture, at->shape, at->point, &room);
-    TextureThrough through =
-        texture_walk(&p->textures, compound->texture, at->point, uv, p->adc_bailout, add_layer, &sum);
+    TextureSight sight = sight_of(p, compound, at, &room);
+    TextureThrough through = texture_walk(&p->textures, compound->texture, sight, p->adc_bailout, add_layer, &sum);
     end_mirrors(&sum, scatter, 1);
     scatter->through = through.light;
     scatter->through_weight = through.weight;
@@ -179,7 +185,7 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     LayerSum *sum = &bumps->sum;
     ShadingPoint at = *sum->at;
     if (layer->normal != RECORD_NONE) {
-        at.normal = texture_normal(&sum->p->textures, layer, at.normal);
+        at.normal = texture_normal(layer, at.normal);
     }
     if (layer->is_top) {
         begin_stack(bumps, layer, at.normal);
@@ -208,8 +214,8 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
     };
     ways->count = 0;
     Vec3 room;
-    const Vec3 *uv = shade_uv(p, compound->texture, at->shape, at->point, &room);
-    texture_walk(&p->textures, compound->texture, at->point, uv, p->adc_bailout, add_bumpy_layer, &bumps);
+    TextureSight sight = sight_of(p, compound, at, &room);
+    texture_walk(&p->textures, compound->texture, sight, p->adc_bailout, add_bumpy_layer, &bumps);
     end_stack(&bumps);
     if (ways->count == 0) {
         way_for(&bumps, at->normal, 1.0);
@@ -220,7 +226,6 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
 // ---- caustics
 
 typedef struct CausticSum {
-    const TextureTable *table;
     Vec3 normal, direction;
     double exponent;
 } CausticSum;
@@ -229,7 +234,7 @@ typedef struct CausticSum {
 static Rgb gather_layer(void *client, const TextureLayer *layer)
 {
     const CausticSum *sum = client;
-    Vec3 normal = layer->normal != RECORD_NONE ? texture_normal(sum->table, layer, sum->normal) : sum->normal;
+    Vec3 normal = layer->normal != RECORD_NONE ? texture_normal(layer, sum->normal) : sum->normal;
     return rgb_grey(1.0 + pow(fabs(vec3_dot(normal, sum->direction)), sum->exponent));
 }
 
@@ -239,13 +244,18 @@ Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *s
     Vec3 room;
     const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
     Vec3 normal = vec3_dot(surface->normal, direction) > 0.0 ? vec3_neg(surface->normal) : surface->normal;
-    CausticSum sum = {&p->textures, normal, direction, 45.0 * p->interiors[compound->interior].caustics};
-    return texture_walk(&p->textures, compound->texture, surface->point, uv, 0.0, gather_layer, &sum).light;
+    CausticSum sum = {normal, direction, 45.0 * p->interiors[compound->interior].caustics};
+    TextureSight sight = {surface->point, uv, &normal, &direction, true};
+    return texture_walk(&p->textures, compound->texture, sight, 0.0, gather_layer, &sum).light;
 }
 
-Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape)
+Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape,
+                         Vec3 direction)
 {
     Vec3 room;
     const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
-    return texture_walk(&p->textures, compound->texture, surface->point, uv, 0.0, NULL, NULL).light;
+    bool turns = p->textures.faces && vec3_dot(surface->normal, direction) > 0.0;
+    Vec3 normal = turns ? vec3_neg(surface->normal) : surface->normal;
+    TextureSight sight = {surface->point, uv, &normal, &direction, true};
+    return texture_walk(&p->textures, compound->texture, sight, 0.0, NULL, NULL).light;
 }

@@ -102,7 +102,8 @@ RT_ALWAYS_INLINE Rgb shade_shadow_crossed(const Prepared *p, const Surface *surf
 // What a surface whose interior has caustics multiplies light with that goes through it. In compound.c.
 Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape, Vec3 direction);
 // The same of any other compound.
-Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape);
+Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape,
+                         Vec3 direction);
 
 // What a surface multiplies light with that goes through it in a direction.
 RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface, ShapeId shape,
@@ -114,7 +115,7 @@ RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features,
             p->interiors[compound->interior].caustics != 0.0) {
             return shade_caustics(p, compound, surface, shape, direction);
         }
-        return shade_layers_through(p, compound, surface, shape);
+        return shade_layers_through(p, compound, surface, shape, direction);
     }
     return texture_pigment_through(material_pigment(&p->materials[surface->material]));
 }

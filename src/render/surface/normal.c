@@ -129,14 +129,35 @@ static Vec3 into(const TextureTable *table, const TexturePlace *place, Vec3 norm
     return vec3_normalize(transform_normal(&table->scene->textures.items[place->texture].to_world, outer));
 }
 
-Vec3 texture_normal(const TextureTable *table, const TextureLayer *layer, Vec3 normal)
+// Bumps can be as deep as numbers go, or cancel each other.
+static Vec3 unit_or(Vec3 result, Vec3 normal)
 {
-    NormalPlace at = {layer->place->point, layer->place->uv};
-    Vec3 result = turned(table, layer->normal, at, into(table, layer->place, normal), false);
+    double length = vec3_length(result);
+    return length > 0.0 && isfinite(length) ? vec3_scale(1.0 / length, result) : normal;
+}
+
+static NormalPlace place_of(const TextureLayer *layer)
+{
+    return (NormalPlace){layer->place->point, layer->place->uv};
+}
+
+Vec3 texture_normal_inside(const TextureLayer *layer, Vec3 normal)
+{
+    Vec3 inner = into(layer->table, layer->place, normal);
+    return unit_or(turned(layer->table, layer->normal, place_of(layer), inner, false), inner);
+}
+
+Vec3 texture_normal(const TextureLayer *layer, Vec3 normal)
+{
+    const TextureTable *table = layer->table;
+    Vec3 result = turned(table, layer->normal, place_of(layer), into(table, layer->place, normal), false);
     for (const TexturePlace *place = layer->place; place->outer; place = place->outer) {
         result = transform_normal(&table->texture_to_pattern[place->texture], result);
     }
-    // Bumps can be as deep as numbers go, or cancel each other.
-    double length = vec3_length(result);
-    return length > 0.0 && isfinite(length) ? vec3_scale(1.0 / length, result) : normal;
+    return unit_or(result, normal);
+}
+
+Vec3 texture_bent(const TextureTable *table, uint32_t normal, Vec3 point, Vec3 direction)
+{
+    return unit_or(turned(table, normal, (NormalPlace){point, NULL}, direction, false), direction);
 }

@@ -33,6 +33,7 @@ typedef struct NoiseSource {
     const Transform *warp_back; // of each warp, into the space behind it
     const FormulaStep *steps;
     const struct TextureTable *table;
+    const struct Facing *facing; // of a surface; NULL where there is none
 } NoiseSource;
 
 // The point in the space around a pattern's transform: surface coordinates where it has those.

@@ -13,6 +13,7 @@
 
 #include "math/extreme.h"
 #include "math/given_surface.h"
+#include "render/surface/facing.h"
 #include "render/surface/formula.h"
 #include "scene/blob.h"
 #include "scene/corners.h"
@@ -41,6 +42,11 @@ static bool any_pattern(const Scene *scene, bool (*holds)(const Pattern *pattern
         }
     }
     return false;
+}
+
+static bool asks_surface(const Pattern *pattern)
+{
+    return pattern_info((PatternType)pattern->type)->is_of_surface;
 }
 
 static bool find_waves(TextureTable *table, const Scene *scene)
@@ -233,6 +239,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     for (size_t i = 0; i < scene->warps.count; i++) {
         table->warp_back[i] = way_back(&scene->warps.items[i].to_outside);
     }
+    table->faces = any_pattern(scene, asks_surface);
     table->goes_abreast = any_pattern(scene, pattern_goes_abreast);
     for (size_t i = 0; i < scene->patterns.count; i++) {
         table->to_pattern[i] = way_back(&scene->patterns.items[i].to_world);
@@ -393,6 +400,9 @@ typedef struct Walk {
     TextureVisit visit;
     void *client;
     TextureThrough through;
+    Facing *facing; // of the whole surface; NULL: no pattern asks for it
+    Vec3 *seen;     // not NULL then: the normal that the last pigment saw
+    bool is_shadow;
 } Walk;
 
 static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above);
@@ -457,6 +467,15 @@ static void walk_average(Walk *walk, uint32_t first, const TexturePlace *place, 
     }
 }
 
+static double facing_value(const Walk *walk, const Pattern *pattern, Vec3 moved)
+{
+    Vec3 whole = walk->facing->normal;
+    walk->facing->normal = *walk->seen;
+    double value = pattern_value_moved(pattern, &walk->table->source, moved);
+    walk->facing->normal = whole;
+    return value;
+}
+
 static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, double part, Rgb above)
 {
     const Texture *texture = &walk->table->scene->textures.items[index];
@@ -472,12 +491,33 @@ static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, 
         (texture_is_of_corners(texture) ? walk_corners : walk_average)(walk, texture->entries, &here, part, above);
         return;
     }
-    AlongPlace place = along_find(&walk->table->texture_lists[index],
-                                  pattern_value_moved(&texture->pattern, &walk->table->source, here.point));
-    walk_layers(walk, entries[place.low].texture, &here, (1.0 - place.share) * part, above);
-    if (place.share > 0.0) {
+    double value = RT_UNLIKELY(walk->facing) ? facing_value(walk, &texture->pattern, here.point)
+                                             : pattern_value_moved(&texture->pattern, &walk->table->source, here.point);
+    AlongPlace place = along_find(&walk->table->texture_lists[index], value);
+    bool is_turned = walk->facing && place.share > 0.0; // then the order counts
+    if (is_turned) {
         walk_layers(walk, entries[place.high].texture, &here, place.share * part, above);
     }
+    walk_layers(walk, entries[place.low].texture, &here, (1.0 - place.share) * part, above);
+    if (place.share > 0.0 && !is_turned) {
+        walk_layers(walk, entries[place.high].texture, &here, place.share * part, above);
+    }
+}
+
+// A layer's pigment sees the surface as the layer's own bumps turn it, in the space of the map that the layer is in. A
+// pattern of textures sees it as the pigment before it did. All else sees it as it is in the scene, and so do pigments in
+// shadows. Measured.
+static Rgbft facing_pigment(const Walk *walk, const Texture *texture, const TexturePlace *place)
+{
+    Vec3 whole = walk->facing->normal;
+    *walk->seen = whole;
+    if (texture->normal != RECORD_NONE && !walk->is_shadow) {
+        TextureLayer layer = {.normal = texture->normal, .place = place, .table = walk->table};
+        *walk->seen = walk->facing->normal = texture_normal_inside(&layer, whole);
+    }
+    Rgbft pigment = texture_pigment_on(walk->table, &texture->pigment, place->point, place->uv);
+    walk->facing->normal = whole;
+    return pigment;
 }
 
 static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above)
@@ -488,8 +528,11 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
             walk_pattern(walk, index, place, part, above); // the lowest one, by the evaluator's rule
             return;
         }
-        Rgbft pigment = texture_pigment_on(walk->table, &texture->pigment, place->point, place->uv);
-        TextureLayer layer = {pigment, texture->finish, texture->normal, index == top, place, part, above};
+        Rgbft pigment = RT_UNLIKELY(walk->facing)
+                            ? facing_pigment(walk, texture, place)
+                            : texture_pigment_on(walk->table, &texture->pigment, place->point, place->uv);
+        TextureLayer layer = {pigment, texture->finish, texture->normal, index == top,
+                              place,   part,            above,           walk->table};
         Rgb left = walk->visit ? walk->visit(walk->client, &layer) : rgb_grey(1.0);
         above = rgb_mul(rgb_mul(above, left), texture_pigment_through(pigment));
         if (rgb_is_black(above) || fabs(rgb_luminance(above)) < walk->cut) {
@@ -501,11 +544,32 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
     walk->through.weight = greater_of(walk->through.weight, rgb_max_abs(above));
 }
 
-TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, const Vec3 *uv, double cut,
+static TextureThrough walk_from(Walk *walk, uint32_t texture, Vec3 point, const Vec3 *uv)
+{
+    TexturePlace place = {point, RECORD_NONE, NULL, uv};
+    walk_layers(walk, texture, &place, 1.0, rgb_grey(1.0));
+    return walk->through;
+}
+
+// The same by a table that knows the surface.
+static TextureThrough walk_facing(Walk *walk, uint32_t texture, TextureSight sight)
+{
+    TextureTable table = *walk->table;
+    Facing facing = {vec3_scale(table.scale, sight.point), *sight.normal, *sight.direction};
+    Vec3 seen = facing.normal;
+    table.source.table = &table;
+    table.source.facing = &facing;
+    walk->table = &table;
+    walk->facing = &facing;
+    walk->seen = &seen;
+    walk->is_shadow = sight.is_shadow;
+    return walk_from(walk, texture, facing.point, sight.uv);
+}
+
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, TextureSight sight, double cut,
                             TextureVisit visit, void *client)
 {
-    Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0, 0.0}};
-    TexturePlace place = {vec3_scale(table->scale, point), RECORD_NONE, NULL, uv};
-    walk_layers(&walk, texture, &place, 1.0, rgb_grey(1.0));
-    return walk.through;
+    Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0, 0.0}, NULL, NULL, false};
+    return RT_UNLIKELY(table->faces) ? walk_facing(&walk, texture, sight)
+                                     : walk_from(&walk, texture, vec3_scale(table->scale, sight.point), sight.uv);
 }

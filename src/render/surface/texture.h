@@ -35,6 +35,7 @@ struct TextureTable {
     const AlongList *pattern_lists, *texture_lists, *normal_lists, *slope_lists; // for each of these, too
     Arena along;                                                                 // what these refer to
     Transform *warp_back; // for each of its warps
+    bool faces;           // some pattern asks how a surface lies
 };
 
 // Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what
@@ -104,6 +105,7 @@ typedef struct TextureLayer {
     const TexturePlace *place;
     double part; // of the texture in a map, 1 without a map
     Rgb above;   // what the layers above let through
+    const TextureTable *table; // which knows how the surface lies
 } TextureLayer;
 
 // Returns the share of light, by colour, that continues to what is below, beside what the pigment lets through.
@@ -117,23 +119,35 @@ typedef struct TextureThrough {
     double weight;
 } TextureThrough;
 
-// Calls `visit`, unless it is NULL, for each surface seen at a point of prepared space, from top to bottom. Light that
-// is darker than `cut` in grey does not continue to the layer below or out of the last one. `uv` are the surface
-// coordinates there, which may be NULL unless texture_is_on_surface.
-TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, const Vec3 *uv, double cut,
+// How a point of a surface is seen: the point, in prepared space; the surface coordinates there, which may be NULL
+// unless texture_is_on_surface; the normal, of length 1 and turned to where the ray comes from; the ray's direction.
+typedef struct TextureSight {
+    Vec3 point;
+    const Vec3 *uv, *normal, *direction;
+    bool is_shadow; // light goes through
+} TextureSight;
+
+// Calls `visit`, unless it is NULL, for each surface seen at a point, from top to bottom. Light that is darker than
+// `cut` in grey does not continue to the layer below or out of the last one.
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, TextureSight sight, double cut,
                             TextureVisit visit, void *client);
 
-// A texture that is one layer without bumps and surface coordinates; NULL where there is more to walk.
+// A texture that is one layer without bumps, and asks for nothing but the point; NULL where there is more to walk.
 static inline const Texture *texture_single(const TextureTable *table, uint32_t index)
 {
     const Texture *texture = &table->scene->textures.items[index];
     bool is_single =
-        texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE;
+        texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE &&
+        !table->faces;
     return is_single && !texture_is_on_surface(table, index) ? texture : NULL;
 }
 
 // The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1.
 // In normal.c.
-Vec3 texture_normal(const TextureTable *table, const TextureLayer *layer, Vec3 normal);
+Vec3 texture_normal(const TextureLayer *layer, Vec3 normal);
+// The same in the space of the pattern of textures around the layer, if there is one.
+Vec3 texture_normal_inside(const TextureLayer *layer, Vec3 normal);
+// What one of the scene's normals makes of a direction of length 1 at a point in the scene's lengths.
+Vec3 texture_bent(const TextureTable *table, uint32_t normal, Vec3 point, Vec3 direction);
 
 #endif
