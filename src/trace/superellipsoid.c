@@ -33,6 +33,7 @@ typedef struct Line {
     Vec3 exponents, o, d; // seen from a point near 0
     Vec3 rise;            // how the sizes of the coordinates change, in the part that is looked at
     double t_base, p, q;
+    double start; // how far the ray's start is from 0, along the ray, if it is on the surface: its own root is near t = 0
     Way way;
     Crossing crossings[CROSSINGS_MOST];
     uint32_t count, places;
@@ -57,6 +58,12 @@ static Place size_at(const Line *line, double t)
     return (Place){t, size - 1.0, slope_of(by.x, rise.x) + slope_of(by.y, rise.y) + slope_of(by.z, rise.z), 0.0};
 }
 
+// The power with an exponent that is less by 1.
+static double power_less(double base, double exponent, double power)
+{
+    return base > 0.0 ? power / base : pow(base, exponent - 1.0);
+}
+
 static Place place_at(const Line *line, double t)
 {
     if (line->way != WAY_MIXED) {
@@ -64,10 +71,10 @@ static Place place_at(const Line *line, double t)
     }
     Vec3 at = vec3_add_scaled(line->o, t, line->d), rise = line->rise;
     double p = line->p, q = line->q, x = fabs(at.x), y = fabs(at.y), z = less_of(fabs(at.z), 1.0);
-    double rest = z > 0.0 ? -expm1(q * log(z)) : 1.0, other = pow(rest, p / q);
-    double by_z = -p * pow(rest, p / q - 1.0) * pow(z, q - 1.0);
-    double slope = slope_of(p * pow(x, p - 1.0), rise.x) + slope_of(p * pow(y, p - 1.0), rise.y);
-    return (Place){t, (pow(x, p) + pow(y, p)) - other, slope, slope_of(by_z, rise.z)};
+    double rest = z > 0.0 ? -expm1(q * log(z)) : 1.0, other = pow(rest, p / q), of_x = pow(x, p), of_y = pow(y, p);
+    double by_z = -p * power_less(rest, p / q, other) * pow(z, q - 1.0);
+    double slope = slope_of(p * power_less(x, p, of_x), rise.x) + slope_of(p * power_less(y, p, of_y), rise.y);
+    return (Place){t, (of_x + of_y) - other, slope, slope_of(by_z, rise.z)};
 }
 
 static void cross_at(Line *line, double t)
@@ -86,7 +93,7 @@ static double root_between(const Line *line, Place first, Place last)
         Place place = place_at(line, t);
         double next = t - place.value / (place.slope - place.other), change = fabs(next - t);
         *((place.value < 0.0) == is_low_inside ? &low : &high) = t;
-        if (place.value == 0.0 || change <= 0x1p-53 * fabs(t)) {
+        if (place.value == 0.0 || change <= 0x1p-53 * (fabs(t) + line->start)) {
             return t;
         }
         bool is_slow = !(next > low && next < high) || !(2.0 * change < before);
@@ -186,6 +193,7 @@ static void line_set(Line *line, Vec3 exponents, const Ray *ray, bool is_start)
     line->t_base = is_start ? 0.0 : -vec3_dot(o, d) / vec3_length_squared(d);
     line->o = is_start ? o : vec3_add_scaled(o, line->t_base, d);
     line->d = d;
+    line->start = is_start ? vec3_max_abs(o) / vec3_max_abs(d) : 0.0;
     line->way = line->p >= 1.0 && line->q >= 1.0   ? WAY_CONVEX
                 : line->p <= 1.0 && line->q <= 1.0 ? WAY_CONCAVE
                                                    : WAY_MIXED;
