@@ -25,6 +25,7 @@ typedef struct Follower {
     double scale; // from prepared lengths to the scene's
     bool failed;
     const ShadingPoint *at; // while layers are collected
+    uint32_t layer;         // of them
 } Follower;
 
 static Vec3 in_scene(const Follower *follower, Vec3 a)
@@ -291,6 +292,7 @@ static Rgb follow_layer(void *client, const TextureLayer *layer)
     }
     follower->at = &at;
     ShadeMaterial material = shade_material(p, FEATURES, layer->pigment, layer->finish);
+    material.layer = follower->layer++;
     LoggedLayer out = {
         .pigment = layer->pigment,
         .part = layer->part,
@@ -316,6 +318,7 @@ static void follow_surface(Follower *follower, const ShadingPoint *at)
 {
     const Prepared *p = follower->p;
     follower->at = at;
+    follower->layer = 0;
     if (at->material & MATERIAL_COMPOUND) {
         uint32_t texture = p->compounds[at->material & ~MATERIAL_COMPOUND].texture;
         Vec3 room;

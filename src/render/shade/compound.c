@@ -29,6 +29,7 @@ typedef struct LayerSum {
     Rgb light;
     Rgb through;      // what the layers of the present texture of a map let through
     ShadeMirror *own; // what these layers mirror, for each way on
+    uint32_t layer;   // how many textures have been asked for
 } LayerSum;
 
 // Of layers the top one's; a map of textures has none of its own, nor have those in it. Measured.
@@ -83,6 +84,7 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
 {
     LayerSum *sum = client;
     ShadeMaterial material = shade_material(sum->p, FLAT_FEATURES, layer->pigment, layer->finish);
+    material.layer = sum->layer++;
     Rgb reflectance, left = shade_left_below(sum->p, FLAT_FEATURES, &material, sum->at);
     if (layer->is_top) {
         end_mirrors(sum, sum->scatter, 1);
@@ -191,6 +193,7 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
         begin_stack(bumps, layer, at.normal);
     }
     ShadeMaterial material = shade_material(sum->p, ALL_FEATURES, layer->pigment, layer->finish);
+    material.layer = sum->layer++;
     Rgb reflectance, left = shade_left_below(sum->p, ALL_FEATURES, &material, &at);
     if (shade_mirror(sum->p, ALL_FEATURES, &material, &at, &reflectance)) {
         int way = way_for(bumps, at.normal, material.finish->reflection_exponent);

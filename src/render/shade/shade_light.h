@@ -52,12 +52,13 @@ typedef struct ShadeMaterial {
     Rgb pigment;
     Rgb opaque; // opaque share × pigment
     const PreparedFinish *finish;
+    uint32_t layer; // of a surface of several textures: how many are asked for before this one
 } ShadeMaterial;
 
 RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned features, Rgbft pigment, FinishIndex finish)
 {
     Rgb colour = rgbft_rgb(pigment);
-    ShadeMaterial out = {colour, colour, &p->finishes[finish]};
+    ShadeMaterial out = {colour, colour, &p->finishes[finish], 0};
     if (features & RENDER_TRANSPARENCY) {
         out.opaque = rgb_scale(texture_pigment_opaque(p->is_old, pigment), colour);
     }
@@ -353,11 +354,11 @@ RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigm
                1.0 + share * (pigment.blue - 1.0));
 }
 
-// What is less by chance: the same at a point for any number of threads.
-RT_ALWAYS_INLINE double shade_grain(const PreparedLight *light, const ShadingPoint *at)
+// What is less by chance: the same at a point for any number of threads, and another number for each texture there.
+RT_ALWAYS_INLINE double shade_grain(const PreparedLight *light, const ShadingPoint *at, uint32_t layer)
 {
     enum { GRAIN = 1 << 20 }; // no light of an area has this number
-    return 0.5 + light_random(light_key(light, at->point, GRAIN, GRAIN));
+    return 0.5 + light_random(light_key(light, at->point, GRAIN, GRAIN + (int)(layer % GRAIN)));
 }
 
 // Colours of a thin layer: light that goes through it once more is ahead by as much as the angles of light and viewer
@@ -398,7 +399,7 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     double diffuse = back ? finish->diffuse_back : finish->diffuse;
     Rgb sum = rgb_scale(falloff, rgb_scale(diffuse, material->opaque));
     if ((features & RENDER_TEXTURES) && finish->crand > 0.0 && diffuse > 0.0) {
-        sum = rgb_add_scaled(sum, -finish->crand * shade_grain(light, at), material->pigment);
+        sum = rgb_add_scaled(sum, -finish->crand * shade_grain(light, at, material->layer), material->pigment);
     }
     if ((features & RENDER_HIGHLIGHTS) && finish->shines && front && !light->shadowless) {
         double shine = shade_highlights(finish, at, towards);
