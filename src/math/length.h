@@ -1,4 +1,5 @@
-// Lengths, as hypot has them to some ulps, of numbers of any size: where no square overflows or vanishes without its call.
+// Lengths of vectors of any size, as hypot has them to some ulps, without its call where no square overflows or
+// vanishes.
 //
 // SPDX-License-Identifier: MIT
 #ifndef MATH_LENGTH_H

@@ -33,7 +33,7 @@ typedef struct Line {
     Vec3 exponents, o, d; // seen from a point near 0
     Vec3 rise;            // how the sizes of the coordinates change, in the part that is looked at
     double t_base, p, q;
-    double start; // how far the ray's start is from 0, along the ray, if it is on the surface: its own root is near t = 0
+    double start; // of a ray that starts on the surface: how far that is from 0, in lengths of the direction; else 0
     Way way;
     Crossing crossings[CROSSINGS_MOST];
     uint32_t count, places;
@@ -84,7 +84,8 @@ static void cross_at(Line *line, double t)
     }
 }
 
-// Where the sign changes, once.
+// Where the sign changes, once. The root of a start on the surface is as small as rounding left it: what its place may
+// be off by is of the start's size.
 static double root_between(const Line *line, Place first, Place last)
 {
     double low = first.t, high = last.t, t = 0.5 * (low + high), before = high - low;

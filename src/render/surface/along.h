@@ -38,7 +38,7 @@ typedef struct AlongRecords {
 const AlongList *along_lists(Arena *arena, const AlongRecords *records, const AlongRecords *entries) RT_MUST_CHECK;
 
 // How many of numbers that rise are no more than `value`. Long lists are halved first; no branch depends on the value.
-static inline uint32_t along_count(const double *at, uint32_t count, double value)
+RT_ALWAYS_INLINE uint32_t along_count(const double *at, uint32_t count, double value)
 {
     enum { COUNTED_MOST = 8 };
     uint32_t low = 0, left = count;
@@ -57,7 +57,7 @@ static inline uint32_t along_count(const double *at, uint32_t count, double valu
 // The place of `value` in a list of at least one entry. As in POV-Ray, the last entry counts from its own place on and
 // the first one up to its own; between them stands the value before the first entry beyond it. So a list that does not
 // rise has its meaning, too.
-static inline AlongPlace along_find(const AlongList *list, double value)
+RT_ALWAYS_INLINE AlongPlace along_find(const AlongList *list, double value)
 {
     const double *at = list->at;
     uint32_t last = list->count - 1, low = 0;
