@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Growth laws: what N of a kind cost, in time and memory, here and with POV-Ray.
 
-    bench/growth.py [--kind=NAME,…] [--sizes=N,…] [--seconds=S] [--trace=WxH]
+    bench/growth.py [--kind=NAME,…|curved] [--sizes=N,…] [--seconds=S] [--trace=WxH] [--turns=N]
 
 For each kind a scene of N parts, N growing by ten until a run takes more than S seconds (10): processor seconds of one thread
 and peak memory of the whole process at 160x120, rtlang's and POV-Ray's of the same file, one after the other; then the
 exponents of both between the two largest sizes that both drew. With --trace instead what tracing takes of N parts (1000) of
-each kind that stand alone: processor seconds of a run of that size less those of one of 16x12, the least of several turns,
-and the geometric mean of the ratios. Wants RTLANG and POV-Ray; takes a quarter of an hour.
+each kind that stand alone: processor seconds of a run of that size less those of one of 16x12, the least of several turns
+(8), and the geometric mean of the ratios; --kind=curved is tori, blobs, text, a height field of 512x512 and the like. Wants RTLANG and POV-Ray; takes a quarter of an hour.
 SPDX-License-Identifier: MIT
 """
 import math
@@ -299,6 +299,10 @@ KINDS = {
 ALONE = ["spheres", "spheres, no_shadow", "spheres, no_image", "cylinders", "cones", "boxes", "triangles", "smooth triangles",
          "discs", "ellipsoids", "unions of two", "differences", "intersections", "merges", "clipped", "inverse spheres",
          "inverse boxes"]
+CURVED = ["tori", "blobs", "superellipsoids", "lathes", "surfaces of revolution", "prisms", "texts", "one torus",
+          "one quartic", "one blob", "one superellipsoid", "one lathe", "one surface of revolution", "one prism", "one text",
+          "one isosurface", "one height field", "one intersection of spheres"]
+COUNTS = {"one blob": 50, "one height field": 512, "one intersection of spheres": 100}  # where it is not told
 TRACE_TURNS = 8
 
 
@@ -331,23 +335,23 @@ def povray_of(width, height):
     return ["povray", "+Is.pov", "+Ot.png", "-D", "-A", "+WT1", "-GA", f"+W{width}", f"+H{height}"]
 
 
-def trace(kinds, count, size, folder):
+def trace(kinds, told, size, turns, folder):
     """What tracing takes; the programs take turns."""
     logs = []
-    print(f"| {count} of each, {size} | rtlang s | POV-Ray s | ratio |\n|---|---|---|---|")
+    print(f"| {told or 1000} of each, {size} | rtlang s | POV-Ray s | ratio |\n|---|---|---|---|")
     for kind in kinds:
         with open(os.path.join(folder, "s.pov"), "w", encoding="ascii") as file:
             file.write(HEAD)
-            file.writelines(KINDS[kind](count))
+            file.writelines(KINDS[kind](told or COUNTS.get(kind, 1000)))
         least = {}
-        for _ in range(TRACE_TURNS):
+        for _ in range(turns):
             for form in rtlang_of, povray_of:
                 for width, height in map(int, size.split("x")), (16, 12):
                     key = form, width == 16
                     least[key] = min(least.get(key, math.inf), run(form(width, height), folder)[0])
         ours, theirs = (least[form, False] - least[form, True] for form in (rtlang_of, povray_of))
-        logs.append(math.log(max(ours, 1e-4) / theirs))
-        print(f"| {kind} | {ours:.4f} | {theirs:.3f} | {ours / theirs:.2f} |", flush=True)
+        logs.append(math.log(max(ours, 1e-4) / max(theirs, 1e-4)))
+        print(f"| {kind} | {ours:.4f} | {theirs:.3f} | {ours / max(theirs, 1e-4):.2f} |", flush=True)
     print(f"| geometric mean | | | {math.exp(sum(logs) / len(logs)):.3f} |")
 
 
@@ -379,11 +383,12 @@ def law(kind, sizes, seconds, folder):
 
 def main():
     options = dict(word[2:].split("=", 1) for word in sys.argv[1:])
-    kinds = options["kind"].split(",") if "kind" in options else list(KINDS)
+    kinds = CURVED if options.get("kind") == "curved" else options["kind"].split(",") if "kind" in options else list(KINDS)
     sizes = [int(size) for size in options.get("sizes", "10,100,1000,10000,100000").split(",")]
     with tempfile.TemporaryDirectory() as folder:
         if "trace" in options:
-            trace(kinds if "kind" in options else ALONE, sizes[0] if "sizes" in options else 1000, options["trace"], folder)
+            trace(kinds if "kind" in options else ALONE, sizes[0] if "sizes" in options else None, options["trace"],
+                  int(options.get("turns", TRACE_TURNS)), folder)
             return
         print("| kind | N | time / POV-Ray's | exponent of time | POV-Ray's | of memory | POV-Ray's |\n|---|---|---|---|---|---|---|")
         for kind in kinds:

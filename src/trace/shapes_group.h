@@ -20,10 +20,10 @@ typedef struct ShapeGroup {
     const Solid *left;
     double far; // of any origin from 0
     double start_error[TILE_RAYS]; // as in ShapeQuery
-    // Of balls, straight solids and tori, at most: see passed_error; -INFINITY: nothing.
+    // Of balls, straight solids and curves, at most: see passed_error; -INFINITY: nothing.
     _Alignas(64) double passed_round[TILE_RAYS];
     double passed_straight[TILE_RAYS];
-    double passed_tube[TILE_RAYS];
+    double passed_curve[TILE_RAYS];
 } ShapeGroup;
 
 // n·d where some rays start on a solid's side, n being the gradient there.
@@ -50,7 +50,7 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
     bool has_lanes = left && kind_has_lanes(left->kind);
     bool is_round = left ? (left->family & FAMILY_ROUND) != 0 : shape_kind(from->start.shape) == SHAPE_SPHERE;
     bool is_straight = left ? (left->family & FAMILY_STRAIGHT) != 0 : !is_round;
-    bool is_tube = left && (left->family & FAMILY_TUBE) != 0;
+    bool is_curve = left && kind_is_curve((PartKind)left->kind);
     LaneSolid own;
     from->far = vec3_length(group->end) + group->farthest;
     if (has_lanes) {
@@ -58,7 +58,7 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
     }
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
-        if (has_lanes) {
+        if (has_lanes && left->kind != PART_POLYNOMIAL) {
             Doubles f[3], d[3];
             lane_solid_ray(&own, group->origin, group->direction, at, f, d);
             passed = own.slack.fixed / doubles_abs(start_along(left, part_side(from->start.shape), f, d));
@@ -70,7 +70,7 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
         const Doubles nothing = doubles_splat(-(double)INFINITY);
         doubles_store(&from->passed_round[at], is_round ? passed : nothing);
         doubles_store(&from->passed_straight[at], is_straight ? passed : nothing);
-        doubles_store(&from->passed_tube[at], is_tube ? passed : nothing);
+        doubles_store(&from->passed_curve[at], is_curve ? passed : nothing);
     }
 }
 
@@ -82,8 +82,9 @@ typedef struct LanesMet {
 // How much of a solid the rays have passed; of the one that they start on, nothing.
 RT_ALWAYS_INLINE Doubles group_passed(const ShapeGroup *from, const Solid *solid, PartKind kind, unsigned at)
 {
-    if (kind == PART_TORUS) {
-        return solid == from->left ? doubles_splat(-(double)INFINITY) : doubles_load(&from->passed_tube[at]);
+    if (kind_is_curve(kind)) {
+        bool is_passed = from->left && solid != from->left && solid->family == from->left->family;
+        return is_passed ? doubles_load(&from->passed_curve[at]) : doubles_splat(-(double)INFINITY);
     }
     return doubles_load(&(kind == PART_SPHERE ? from->passed_round : from->passed_straight)[at]);
 }
@@ -95,8 +96,8 @@ RT_ALWAYS_INLINE LanesMet group_solid_lanes(const ShapeGroup *from, const RayGro
     Doubles f[3], d[3], direction[3];
     lane_solid_ray(own, group->origin, group->direction, at, f, d);
     lanes_load(group->direction, at, direction);
-    bool is_met = kind == PART_TORUS && own->solid == from->left
-                      ? torus_lanes(own, f, d, true, asked, &lanes)
+    bool is_met = kind_is_curve(kind) && own->solid == from->left
+                      ? curve_lanes(own, kind, f, d, true, asked, &lanes)
                       : solid_lanes(own, kind, f, d, direction, asked, &lanes);
     if (!is_met) {
         return (LanesMet){0, 0};
@@ -166,6 +167,7 @@ static uint64_t group_solid(const ShapeGroup *from, const RayGroup *group, const
     case PART_CONE: return group_solid_kind(from, group, solid, PART_CONE, box, occluded, may);
     case PART_DISC: return group_solid_kind(from, group, solid, PART_DISC, box, occluded, may);
     case PART_TORUS: return group_solid_kind(from, group, solid, PART_TORUS, box, occluded, may);
+    case PART_POLYNOMIAL: return group_solid_kind(from, group, solid, PART_POLYNOMIAL, box, occluded, may);
     default: return group_solid_kind(from, group, solid, PART_TRIANGLE, box, occluded, may);
     }
 }

@@ -91,7 +91,7 @@ static uint64_t shapes_surfaces(const ShapeTable *table, const double *const ori
     for (unsigned kinds = surfaces_kinds(table, surfaces, asked); kinds; kinds &= kinds - 1) {
         PartKind kind = (PartKind)__builtin_ctz(kinds);
         KindSurfaces of; // not cleared
-        if (!kind_has_lanes(kind)) {
+        if (!kind_has_lanes(kind) || kind == PART_POLYNOMIAL) {
             continue;
         }
         surfaces_of_kind(table, surfaces, asked, kind, &of);

@@ -19,7 +19,13 @@
 #include "trace/crossings.h"
 
 // PLACES_MOST: what a line is asked at, at most; exponents that are no shapes any more ask for more.
-enum { STEPS_MOST = 100, DEPTH_MOST = 60, PLACES_MOST = 2000, CROSSINGS_MOST = 2 * SUPERELLIPSOID_INTERVALS };
+enum {
+    STEPS_MOST = 100,
+    DEPTH_MOST = 60,
+    PLACES_MOST = 2000,
+    CROSSINGS_MOST = 2 * SUPERELLIPSOID_INTERVALS,
+    WHOLE_MOST = 64
+};
 
 // Powers above this are the same.
 static const double POWER_MOST = 1e300;
@@ -34,6 +40,7 @@ typedef struct Line {
     Vec3 rise;            // how the sizes of the coordinates change, in the part that is looked at
     double t_base, p, q;
     double start; // of a ray that starts on the surface: how far that is from 0, in lengths of the direction; else 0
+    unsigned p_times, q_times; // both as whole numbers, 0 where one of them is none, or a great one
     Way way;
     Crossing crossings[CROSSINGS_MOST];
     uint32_t count, places;
@@ -139,9 +146,49 @@ static void find_between(Line *line, Place first, Place last, unsigned depth)
 
 // ---- convex ones
 
+// Whole powers by multiplication.
+static double whole_power(double x, unsigned n)
+{
+    double power = 1.0;
+    for (; n > 0; n >>= 1) {
+        power = n & 1 ? power * x : power;
+        x *= x;
+    }
+    return power;
+}
+
+// The same function to the power of q, which takes one call of pow where exponents are whole, and none where they are
+// the same, and its slope along the line. It is convex, too.
+static double power_at(const Line *line, double t, double *slope)
+{
+    Vec3 at = vec3_add_scaled(line->o, t, line->d), d = line->d;
+    double x = fabs(at.x), y = fabs(at.y), z = fabs(at.z);
+    double by_x = whole_power(x, line->p_times - 1), by_y = whole_power(y, line->p_times - 1);
+    double by_z = whole_power(z, line->q_times - 1), across = by_x * x + by_y * y;
+    double by_across = line->p_times == line->q_times ? 1.0 : pow(across, line->q / line->p - 1.0);
+    *slope =
+        line->q * (by_across * (copysign(by_x, at.x) * d.x + copysign(by_y, at.y) * d.y) + copysign(by_z, at.z) * d.z);
+    return by_across * across + by_z * z - 1.0;
+}
+
+// A place next to the root that is met first from outside, or to where there is none; nearer to it than `t`, and
+// outside but for rounding, as Newton's steps are.
+static double place_before(const Line *line, double t, double end, double way)
+{
+    for (int i = 0; i < STEPS_MOST && line->p_times > 0; i++) {
+        double slope, value = power_at(line, t, &slope), step = value / (-way * slope);
+        if (!(value > 0x1p-16) || !(way * slope < 0.0) || !(step <= way * (end - t))) {
+            break;
+        }
+        t += way * step;
+    }
+    return t;
+}
+
 // The root that is met first from outside; false: there is none. `t` is outside; `way` is 1 or -1.
 static bool first_root(const Line *line, double t, double end, double way, double *root)
 {
+    t = place_before(line, t, end, way);
     for (int i = 0; i < STEPS_MOST; i++) {
         Vec3 gradient;
         double size =
@@ -198,6 +245,10 @@ static void line_set(Line *line, Vec3 exponents, const Ray *ray, bool is_start)
     line->way = line->p >= 1.0 && line->q >= 1.0   ? WAY_CONVEX
                 : line->p <= 1.0 && line->q <= 1.0 ? WAY_CONCAVE
                                                    : WAY_MIXED;
+    bool are_whole =
+        line->p == floor(line->p) && line->q == floor(line->q) && line->p <= WHOLE_MOST && line->q <= WHOLE_MOST;
+    line->p_times = are_whole ? (unsigned)line->p : 0;
+    line->q_times = are_whole ? (unsigned)line->q : 0;
     line->count = line->places = 0;
 }
 

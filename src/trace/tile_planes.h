@@ -89,6 +89,7 @@ RT_ALWAYS_INLINE void solid_reach(const Solid *solid, PartKind kind, const Doubl
     const Doubles zero = doubles_splat(0.0);
     switch (kind) {
     case PART_BOX:
+    case PART_POLYNOMIAL:
         *low = *high = zero;
         for (int axis = 0; axis < 3; axis++) {
             Doubles a = from[axis] * own[axis], b = to[axis] * own[axis];
@@ -121,7 +122,8 @@ RT_ALWAYS_INLINE double solid_farthest(const Solid *solid, PartKind kind, Vec3 o
     const double(*m)[3] = solid->to_world.m, *low = &solid->data[0].x, *high = &solid->data[1].x;
     double sum = vec3_sum_abs(offset);
     for (int axis = 0; axis < 3; axis++) {
-        double size = kind == PART_BOX     ? fabs(low[axis]) + fabs(high[axis])
+        bool has_box = kind == PART_BOX || kind == PART_POLYNOMIAL;
+        double size = has_box              ? fabs(low[axis]) + fabs(high[axis])
                       : kind == PART_CONE  ? greater_of(1.0, low[0])
                       : kind == PART_TORUS ? low[0] + low[1]
                                            : 1.0;

@@ -495,7 +495,7 @@ bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Tra
 bool normal_place(Eval *ev, Scene *scene, const NormalDesc *normal, Span span, uint32_t *index)
 {
     SharedMaps shared = {0};
-    Builder builder = {ev, scene, span, &shared};
+    Builder builder = {ev, scene, span, &shared, false};
     Transform identity = transform_identity();
     uint64_t patterns;
     bool is_added = add_normal(&builder, normal, &identity, false, index, &patterns);
