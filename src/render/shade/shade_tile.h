@@ -299,7 +299,8 @@ RT_SELDOM void shade_tile_dome(const Prepared *p, unsigned features, TileScratch
         ShadingPoint at = shade_tile_lit_point(features, scratch, i);
         at.stream = streams ? &streams[tile->surfaces.ray[i]] : NULL;
         ShadeMaterial material = {rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]),
-                                  rgb(tile->diffuse[0][i], tile->diffuse[1][i], tile->diffuse[2][i]), tile->finish[i]};
+                                  rgb(tile->diffuse[0][i], tile->diffuse[1][i], tile->diffuse[2][i]), tile->finish[i],
+                                  0};
         Rgb own = dome_light(p, &material, &at, statistics);
         tile->light[0][i] += own.red;
         tile->light[1][i] += own.green;
@@ -350,7 +351,7 @@ RT_ALWAYS_INLINE bool shade_tile_mirrors(const Prepared *p, unsigned features, c
 {
     unsigned ray = tile->surfaces.ray[i];
     Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
-    ShadeMaterial material = {pigment, pigment, tile->finish[i]};
+    ShadeMaterial material = {pigment, pigment, tile->finish[i], 0};
     ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
     ScatterRecord scatter = {.reflection_weight = 0.0};
     if (!tile->finish[i]->reflects) {
@@ -428,7 +429,7 @@ RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(const Prepared *p, unsigned 
                              .conserves_energy = tile->finish[i]->conserves_energy};
     if ((features & RENDER_REFLECTION) && tile->finish[i]->reflects) {
         Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
-        ShadeMaterial material = {pigment, pigment, tile->finish[i]};
+        ShadeMaterial material = {pigment, pigment, tile->finish[i], 0};
         ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
         shade_set_mirror(p, features, &material, &at, &scatter);
     }
