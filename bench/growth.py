@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Growth laws: what N of a kind cost, in time and memory, here and with POV-Ray.
 
-    bench/growth.py [--kind=NAME,…] [--sizes=N,…] [--seconds=S] [--trace=WxH]
+    bench/growth.py [--kind=NAME,…|curved] [--sizes=N,…] [--seconds=S] [--trace=WxH] [--turns=N]
 
 For each kind a scene of N parts, N growing by ten until a run takes more than S seconds (10): processor seconds of one thread
 and peak memory of the whole process at 160x120, rtlang's and POV-Ray's of the same file, one after the other; then the
 exponents of both between the two largest sizes that both drew. With --trace instead what tracing takes of N parts (1000) of
-each kind that stand alone: processor seconds of a run of that size less those of one of 16x12, the least of several turns,
-and the geometric mean of the ratios. Wants RTLANG and POV-Ray; takes a quarter of an hour.
+each kind that stand alone: processor seconds of a run of that size less those of one of 16x12, the least of several turns
+(8), and the geometric mean of the ratios; --kind=curved is tori, blobs, text, a height field of 512x512 and the like. Wants RTLANG and POV-Ray; takes a quarter of an hour.
 SPDX-License-Identifier: MIT
 """
 import math
@@ -94,6 +94,53 @@ def disc(p):
 def ellipsoid(p):
     return (f"sphere {{ 0, 1 scale {vector([p.size * (0.3 + 0.5 * p.number()) for _ in range(3)])} "
             f"rotate {vector(p.place(180))} translate {vector(p.place())} {p.paint()} }}\n")
+
+
+def turned(p, size):
+    return f"scale {size:.6g} rotate {vector(p.place(180))} translate {vector(p.place())} {p.paint()}"
+
+
+def shaped(text, size=1.0):
+    """A shape of size 1 or so, at a place of each and turned."""
+    return lambda p: f"{text} {turned(p, size * p.size)} }}\n"
+
+
+TORUS = "torus { 0.4, 0.15"
+QUARTIC = "quartic { <1, 0, 0, 0, 2, 0, 0, 2, 0, -0.365, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0.275, 0, 0, 0, 0, 1, 0, -0.365, 0, 0.01890625>"
+SUPERELLIPSOID = "superellipsoid { <0.25, 0.25>"
+FLOWER = "lathe { cubic_spline 6 <0.1, -0.7>, <0.2, -0.5>, <0.5, -0.2>, <0.2, 0.1>, <0.4, 0.5>, <0.5, 0.7>"
+VASE = "sor { 6 <0.1, -0.7>, <0.2, -0.5>, <0.5, -0.2>, <0.2, 0.1>, <0.4, 0.5>, <0.5, 0.7>"
+STAR = "prism { quadratic_spline 0, 0.3, 8 <-0.5, -0.5>, <0, -0.6>, <0.5, -0.1>, <0.2, 0.3>, <0, 0.6>, <-0.4, 0.4>, <-0.4, -0.2>, <0, -0.6>"
+WORD = 'text { ttf "timrom.ttf" "Rays" 0.2, 0'
+WAVES = ("isosurface { function { x*x + y*y + z*z - 0.2 + 0.05 * sin(9*x) * sin(9*y) * sin(9*z) } "
+         "contained_by { sphere { 0, 0.7 } } max_gradient 3")
+
+
+def drops(p, count=6):
+    """A blob of some drops."""
+    parts = [f"sphere {{ {vector(p.place(0.4))}, 0.5, 1 }}" for _ in range(count)]
+    return f"blob {{ threshold 0.5 {' '.join(parts)} {turned(p, p.size)} }}\n"
+
+
+def one_blob(count):
+    places = Places(count)
+    yield "blob { threshold 0.4\n"
+    for _ in range(count):
+        yield f"sphere {{ {vector(places.place())}, {2 * places.size:.6g}, 1 }}\n"
+    yield "pigment { rgb 0.8 } }\n"
+
+
+def hills(count):
+    """A height field of so many columns and rows, from a function."""
+    yield (f"height_field {{ function {count}, {count} {{ 0.5 + 0.2 * sin(13*x) * cos(11*y) + 0.1 * sin(67*x + 3) * sin(59*y) }} "
+           "translate -0.5 scale <4, 0.8, 4> rotate -35*x pigment { rgb 0.8 } }\n")
+
+
+def large(text):
+    """One that fills the picture; it has no size to grow by."""
+    def scene(_count):
+        yield f"{text} rotate <-60, 20, 0> scale 2.2 pigment {{ rgb 0.8 }} }}\n"
+    return scene
 
 
 def pair(word, other):
@@ -208,6 +255,25 @@ KINDS = {
     "clipped": each(lambda p: sphere(p, f"clipped_by {{ plane {{ y, {p.place()[1]:.4g} }} }}")),
     "inverse spheres": each(lambda p: sphere(p, "inverse")),
     "inverse boxes": each(lambda p: box(p, "inverse")),
+    "tori": each(shaped(TORUS)),
+    "quartics": each(shaped(QUARTIC)),
+    "blobs": each(drops),
+    "superellipsoids": each(shaped(SUPERELLIPSOID, 0.5)),
+    "lathes": each(shaped(FLOWER)),
+    "surfaces of revolution": each(shaped(VASE)),
+    "prisms": each(shaped(STAR)),
+    "texts": each(shaped(WORD, 0.6)),
+    "isosurfaces": each(shaped(WAVES)),
+    "one torus": large(TORUS),
+    "one quartic": large(QUARTIC),
+    "one blob": one_blob,
+    "one superellipsoid": large("superellipsoid { <0.25, 0.25> scale 0.5"),
+    "one lathe": large(FLOWER),
+    "one surface of revolution": large(VASE),
+    "one prism": large(STAR),
+    "one text": large(WORD + " translate -0.9*x scale 0.7"),
+    "one isosurface": large(WAVES),
+    "one height field": hills,
     "equal boxes in one place": each(lambda p: "box { -0.5, 0.5 pigment { rgb 0.7 } }\n"),
     "boxes in a large box": within("box { -1e6, 1e6 pigment { rgb 0.6 } }\n", box),
     "boxes on a large disc": within("disc { -y, y, 1e6 pigment { rgb 0.6 } }\n", box),
@@ -233,6 +299,10 @@ KINDS = {
 ALONE = ["spheres", "spheres, no_shadow", "spheres, no_image", "cylinders", "cones", "boxes", "triangles", "smooth triangles",
          "discs", "ellipsoids", "unions of two", "differences", "intersections", "merges", "clipped", "inverse spheres",
          "inverse boxes"]
+CURVED = ["tori", "blobs", "superellipsoids", "lathes", "surfaces of revolution", "prisms", "texts", "one torus",
+          "one quartic", "one blob", "one superellipsoid", "one lathe", "one surface of revolution", "one prism", "one text",
+          "one isosurface", "one height field", "one intersection of spheres"]
+COUNTS = {"one blob": 50, "one height field": 512, "one intersection of spheres": 100}  # where it is not told
 TRACE_TURNS = 8
 
 
@@ -265,23 +335,23 @@ def povray_of(width, height):
     return ["povray", "+Is.pov", "+Ot.png", "-D", "-A", "+WT1", "-GA", f"+W{width}", f"+H{height}"]
 
 
-def trace(kinds, count, size, folder):
+def trace(kinds, told, size, turns, folder):
     """What tracing takes; the programs take turns."""
     logs = []
-    print(f"| {count} of each, {size} | rtlang s | POV-Ray s | ratio |\n|---|---|---|---|")
+    print(f"| {told or 1000} of each, {size} | rtlang s | POV-Ray s | ratio |\n|---|---|---|---|")
     for kind in kinds:
         with open(os.path.join(folder, "s.pov"), "w", encoding="ascii") as file:
             file.write(HEAD)
-            file.writelines(KINDS[kind](count))
+            file.writelines(KINDS[kind](told or COUNTS.get(kind, 1000)))
         least = {}
-        for _ in range(TRACE_TURNS):
+        for _ in range(turns):
             for form in rtlang_of, povray_of:
                 for width, height in map(int, size.split("x")), (16, 12):
                     key = form, width == 16
                     least[key] = min(least.get(key, math.inf), run(form(width, height), folder)[0])
         ours, theirs = (least[form, False] - least[form, True] for form in (rtlang_of, povray_of))
-        logs.append(math.log(max(ours, 1e-4) / theirs))
-        print(f"| {kind} | {ours:.4f} | {theirs:.3f} | {ours / theirs:.2f} |", flush=True)
+        logs.append(math.log(max(ours, 1e-4) / max(theirs, 1e-4)))
+        print(f"| {kind} | {ours:.4f} | {theirs:.3f} | {ours / max(theirs, 1e-4):.2f} |", flush=True)
     print(f"| geometric mean | | | {math.exp(sum(logs) / len(logs)):.3f} |")
 
 
@@ -313,11 +383,12 @@ def law(kind, sizes, seconds, folder):
 
 def main():
     options = dict(word[2:].split("=", 1) for word in sys.argv[1:])
-    kinds = options["kind"].split(",") if "kind" in options else list(KINDS)
+    kinds = CURVED if options.get("kind") == "curved" else options["kind"].split(",") if "kind" in options else list(KINDS)
     sizes = [int(size) for size in options.get("sizes", "10,100,1000,10000,100000").split(",")]
     with tempfile.TemporaryDirectory() as folder:
         if "trace" in options:
-            trace(kinds if "kind" in options else ALONE, sizes[0] if "sizes" in options else 1000, options["trace"], folder)
+            trace(kinds if "kind" in options else ALONE, sizes[0] if "sizes" in options else None, options["trace"],
+                  int(options.get("turns", TRACE_TURNS)), folder)
             return
         print("| kind | N | time / POV-Ray's | exponent of time | POV-Ray's | of memory | POV-Ray's |\n|---|---|---|---|---|---|---|")
         for kind in kinds:

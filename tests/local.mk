@@ -65,6 +65,7 @@ unit_programs = \
   tests/unit/test_prism \
   tests/unit/test_revolved \
   tests/unit/test_superellipsoid \
+  tests/unit/test_sweep \
   tests/unit/test_scene \
   tests/unit/test_schema \
   tests/unit/test_ast \
@@ -154,6 +155,8 @@ tests_unit_test_revolved_SOURCES = %D%/unit/test_revolved.c $(unit_headers)
 tests_unit_test_revolved_LDADD = $(UNIT_TRACE)
 tests_unit_test_superellipsoid_SOURCES = %D%/unit/test_superellipsoid.c $(unit_headers)
 tests_unit_test_superellipsoid_LDADD = $(UNIT_TRACE)
+tests_unit_test_sweep_SOURCES = %D%/unit/test_sweep.c $(unit_headers)
+tests_unit_test_sweep_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_tree_SOURCES = %D%/unit/test_trace_tree.c $(trace_headers)
 tests_unit_test_trace_tree_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_secondary_SOURCES = %D%/unit/test_trace_secondary.c $(trace_headers)
@@ -386,6 +389,7 @@ lang_cases = \
   %D%/lang/hints.test \
   %D%/lang/includes.test \
   %D%/lang/interior.test \
+  %D%/lang/pattern_slope.test \
   %D%/lang/lenient.test \
   %D%/lang/light.test \
   %D%/lang/limits.test \
@@ -399,7 +403,9 @@ lang_cases = \
   %D%/lang/range.test \
   %D%/lang/seeded_faults.test \
   %D%/lang/settings.test \
+  %D%/lang/isosurface.test \
   %D%/lang/shapes.test \
+  %D%/lang/sweep.test \
   %D%/lang/sky.test \
   %D%/lang/sphere.test \
   %D%/lang/splice.test \
@@ -440,11 +446,12 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
   tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
   tests/unit/test_mesh$(EXEEXT) tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT) \
   tests/unit/test_partial$(EXEEXT) tests/unit/test_prism$(EXEEXT) \
-  tests/unit/test_revolved$(EXEEXT) tests/unit/test_superellipsoid$(EXEEXT)
+  tests/unit/test_revolved$(EXEEXT) tests/unit/test_superellipsoid$(EXEEXT) tests/unit/test_sweep$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
 	CHECK_LONG=1 tests/unit/test_prism$(EXEEXT)
 	CHECK_LONG=1 tests/unit/test_revolved$(EXEEXT)
 	CHECK_LONG=1 tests/unit/test_superellipsoid$(EXEEXT)
+	CHECK_LONG=1 tests/unit/test_sweep$(EXEEXT)
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
 	tests/unit/test_mesh$(EXEEXT) 1700000
 	tests/unit/test_range$(EXEEXT) 20000

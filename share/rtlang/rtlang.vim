@@ -45,11 +45,11 @@ syn keyword rtlangWord phong_size pigment pigment_map pigment_pattern planar pla
 syn keyword rtlangWord polygon ppm premultiplied prism quadric quartic quick_color quick_colour quilted radial
 syn keyword rtlangWord radius ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
 syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope_map smooth
-syn keyword rtlangWord smooth_triangle solid sor specular sphere spherical spiral1 spiral2 split_union
-syn keyword rtlangWord spotlight spotted strength sturm superellipsoid text texture texture_map tga thickness
-syn keyword rtlangWord threshold tiff tightness tiles toroidal torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
-syn keyword rtlangWord variance warp water_level waves wood wrinkles
+syn keyword rtlangWord smooth_triangle solid sor specular sphere sphere_sweep spherical spiral1 spiral2
+syn keyword rtlangWord split_union spotlight spotted strength sturm superellipsoid text texture texture_map
+syn keyword rtlangWord tga thickness threshold tiff tightness tiles tolerance toroidal torus transform
+syn keyword rtlangWord translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union up
+syn keyword rtlangWord use_color use_colour variance warp water_level waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

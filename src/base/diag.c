@@ -221,7 +221,8 @@ static bool report_count(DiagSink *sink, const Diag *diag)
         sink->warning_count++;
         return sink->kept_warnings < sink->keep_warnings;
     }
-    if (sink->error_count == 0) {
+    // What a limit stops was not looked at whole, whatever was found before.
+    if (sink->error_count == 0 || diag->class == CLASS_LIMIT) {
         sink->class = diag->class;
     }
     return sink->error_count++ < sink->keep_errors;

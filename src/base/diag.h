@@ -73,7 +73,7 @@ typedef struct DiagSink {
     size_t dropped[DIAG_CODE_COUNT];   // reported and only counted, by code, since the last diag_finish
     size_t reported[DIAG_CODE_COUNT];  // all, by code
     uint8_t levels[DIAG_CODE_COUNT];   // DIAG_ON, DIAG_FATAL
-    DiagClass class;                   // of the first error; CLASS_NONE while there is none
+    DiagClass class;                   // of the first error, or CLASS_LIMIT; CLASS_NONE while there is no error
     bool out_of_memory;                // a record, or a part of one, could not be kept
     size_t frame_note_count;           // of the record kept last: the notes at its end that are its call stack
 } DiagSink;

@@ -98,6 +98,9 @@ void digest_add(Digest *digest, const void *bytes, size_t size)
             compress(digest, digest->block, DIGEST_BLOCK, 0);
             digest->filled = 0;
         }
+        for (; digest->filled == 0 && size > DIGEST_BLOCK; at += DIGEST_BLOCK, size -= DIGEST_BLOCK) {
+            compress(digest, at, DIGEST_BLOCK, 0);
+        }
         size_t room = DIGEST_BLOCK - digest->filled, part = size < room ? size : room;
         memcpy(digest->block + digest->filled, at, part);
         digest->filled += part;

@@ -127,15 +127,17 @@ static bool read_ini(Library *library, const char *path)
     FILE *file = fopen(path, "re");
     char *line = NULL;
     size_t size = 0;
-    while (file && getline(&line, &size, file) >= 0) {
+    bool is_section = false, has_memory = file || errno != ENOMEM;
+    while (!is_section && file && getline(&line, &size, file) >= 0) {
         char *text = line + strspn(line, blanks);
-        if (*text == '[') {
-            break;
-        }
-        if (!add_option(library, text)) {
+        is_section = *text == '[';
+        if (!is_section && !add_option(library, text)) {
             add_switches(library, text);
         }
     }
+    // A read that fails for want of memory sets no error of the stream.
+    has_memory = has_memory && (!file || is_section || feof(file) || ferror(file));
+    library->failed = library->failed || !has_memory;
     free(line);
     if (file) {
         (void)fclose(file);
@@ -172,11 +174,19 @@ static void add_from_ini(Library *library)
 
 // ---- other places
 
+static int is_memory_wanting(const char *path, int error)
+{
+    (void)path;
+    return error == ENOMEM;
+}
+
 // Open Babel's scenes include a file that lies with its data, in a folder named by its version.
 static void add_open_babel(Library *library)
 {
     glob_t found;
-    if (glob("/usr/share/openbabel/*", GLOB_ONLYDIR, NULL, &found) == 0) {
+    int result = glob("/usr/share/openbabel/*", GLOB_ONLYDIR, is_memory_wanting, &found);
+    library->failed = library->failed || result == GLOB_NOSPACE || result == GLOB_ABORTED;
+    if (result == 0) {
         for (size_t i = 0; i < found.gl_pathc; i++) {
             add(library, found.gl_pathv[i]);
         }

@@ -34,6 +34,24 @@ void pages_prefer_huge(void *memory, size_t bytes)
     }
 }
 
+// Takes the whole huge pages of memory that begins on one to others, instead of their contents; malloc, which still has
+// the old addresses, gives them back to the system itself, so nobody else can get them before. How many bytes it was.
+static size_t move_huge_pages(void *to, void *from, size_t bytes)
+{
+#ifdef MREMAP_DONTUNMAP
+    size_t whole = ((uintptr_t)from & (huge_page - 1)) == 0 ? bytes & ~(huge_page - 1) : 0;
+    int before = errno, how = MREMAP_MAYMOVE | MREMAP_FIXED | MREMAP_DONTUNMAP;
+    if (whole > 0 && mremap(from, whole, whole, how, to) == MAP_FAILED) {
+        errno = before;
+        return 0;
+    }
+    return whole;
+#else
+    (void)to, (void)from, (void)bytes;
+    return 0;
+#endif
+}
+
 // realloc would fail to move pages of which some are huge and some are not, and copy them to small ones.
 void *pages_grow(void *memory, size_t old_bytes, size_t bytes)
 {
@@ -47,7 +65,8 @@ void *pages_grow(void *memory, size_t old_bytes, size_t bytes)
     }
     pages_prefer_huge(moved, whole);
     if (old_bytes > 0) {
-        memcpy(moved, memory, old_bytes);
+        size_t done = move_huge_pages(moved, memory, old_bytes);
+        memcpy((char *)moved + done, (const char *)memory + done, old_bytes - done);
     }
     free(memory);
     return moved;

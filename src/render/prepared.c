@@ -13,6 +13,8 @@
 #include "render/render.h"
 #include "render/shade/inside.h"
 #include "render/shade/tile_light.h"
+#include "scene/mesh.h"
+#include "scene/primitive.h"
 #include "scene/range.h"
 #include "trace/elsewhere.h"
 #include "trace/kept.h"
@@ -29,11 +31,37 @@ static Vec3 unit(Vec3 a)
     return vec3_normalize(vec3_ldexp(a, -ilogb(greatest)));
 }
 
+// ---- surfaces
+
+// How many surfaces of a part a line meets at most.
+static uint64_t part_crossings_most(const Part *part)
+{
+    const PrimitiveClass *primitive = primitive_class(part->kind);
+    if (primitive->is_mesh) {
+        return (uint64_t)part->mesh.mesh->face_count + 8; // a field of heights has sides and water, too
+    }
+    if (part->kind == PART_ISOSURFACE) {
+        return (uint64_t)1 << 24; // its accuracy is no finer
+    }
+    Part member = *part;
+    member.node = 0; // of one alone fewer are asked for at a time
+    return 2 * (uint64_t)primitive_intervals(&member) + 1;
+}
+
+static uint64_t crossings_most(const Scene *scene)
+{
+    uint64_t most = 2 * (uint64_t)scene->shape_count;
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        most += part_crossings_most(&scene->parts.items[i]);
+    }
+    return most;
+}
+
 // ---- camera, lights, finishes
 
 static PreparedCamera prepare_camera(const Camera *camera, int exponent)
 {
-    PreparedCamera out = {.type = camera->type, .location = vec3_ldexp(camera->location, -exponent)};
+    PreparedCamera out = {.type = camera->type, .through = camera->type, .location = vec3_ldexp(camera->location, -exponent)};
     if (camera->type == CAMERA_ORTHOGRAPHIC) {
         out.direction = unit(camera->direction);
         out.right = vec3_ldexp(camera->right, -exponent);
@@ -290,12 +318,17 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     geometry_set_abandon(p->geometry, p->abandon);
     p->length = ldexp(1.0, exponent);
     p->camera = prepare_camera(&scene->camera, exponent);
+    if (scene->camera.bumps) {
+        p->camera.type = CAMERA_BUMPY;
+        p->camera.textures = &p->textures;
+        p->camera.bumps = scene->camera.bumps - 1;
+    }
     p->background = rgb_scale(1.0 - scene->background.transmit, rgbft_rgb(scene->background));
     p->is_old = scene->settings.version < 3.7;
     p->max_trace_level = scene->settings.max_trace_level;
     p->adc_bailout = scene->settings.adc_bailout;
     p->near_light = SHADOW_NEAR * ldexp(scale.least_size, -exponent);
-    p->crossings_max = 2 * ((uint64_t)scene->shape_count + scene->parts.count);
+    p->crossings_max = crossings_most(scene);
     prepare_lists(p, scene, exponent);
     if (!options->is_shared) { // such scenes have nothing in which it counts
         prepared_inside(p, p->camera.location, &p->start);

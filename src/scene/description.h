@@ -30,6 +30,7 @@ typedef struct CameraDesc {
     Vec3 focal_point;
     bool has_focal_point;
     double focal_distance; // when complete
+    const struct NormalDesc *normal; // NULL: no bumps
 } CameraDesc;
 
 // A picture as it is laid over a surface.
@@ -51,6 +52,13 @@ struct WarpDesc {
     unsigned count; // with those before it
 };
 
+// What stands in the braces of the pattern `slope`.
+typedef struct SlopeDesc {
+    Vec3 direction, altitude; // a point, where is_point
+    double low, high, low_altitude, high_altitude; // that become 0 and 1, where they differ
+    bool has_direction, is_point;
+} SlopeDesc;
+
 // A pattern in space and what lies along it; with PATTERN_NONE, what the pigment or texture around it says.
 typedef struct PatternMap PatternMap;
 typedef struct PatternPart {
@@ -61,6 +69,10 @@ typedef struct PatternPart {
     const struct Function *function; // PATTERN_FUNCTION, of the evaluator
     const struct PigmentDesc *pigment; // PATTERN_PIGMENT
     const WarpDesc *warps; // the last one first
+    const Transform *on_surface; // from the pattern's space to surface coordinates, which nothing else moves; NULL: it
+                                 // lies in space
+    bool turns;                  // bumps of it do move: their directions, that is, and not what they are told of
+    bool asks_uv;                // it or something along it lies on the surface
 } PatternPart;
 
 typedef struct PigmentDesc {
@@ -277,6 +289,13 @@ typedef struct SuperellipsoidDesc {
     double about, along; // e and n
 } SuperellipsoidDesc;
 
+typedef struct SweepDesc {
+    ObjectPart part;
+    Numbers list; // scene/sweep.h, in parts of `size`
+    double size;  // a power of two
+    double tolerance;
+} SweepDesc;
+
 typedef struct PolygonDesc {
     ObjectPart part;
     Numbers outline; // within the frame
@@ -316,6 +335,7 @@ typedef struct PatchDesc {
     Vec3 points[4][4]; // four rows; u_steps halves from row to row, v_steps within the rows
     double flatness;
     double steps[2]; // u_steps, v_steps: whole numbers
+    double uv[4][2]; // at the corners: first row and last row from its start, then their ends, round the patch
 } PatchDesc;
 
 struct UnionMember {
@@ -433,6 +453,7 @@ typedef union Desc {
     LatheDesc lathe;
     SorDesc sor;
     SuperellipsoidDesc superellipsoid;
+    SweepDesc sweep;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     MeshDesc mesh;
@@ -453,6 +474,7 @@ typedef union Desc {
     MaterialDesc material;
     TransformDesc transformation;
     WarpDesc warp;
+    SlopeDesc slope;
     UnsupportedDesc unsupported;
 } Desc;
 

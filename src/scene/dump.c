@@ -106,6 +106,9 @@ static void dump_camera(const Camera *camera, TextBuffer *out)
         dump_number(out, "\n  variance ", camera->blur_variance);
         dump_vector(out, "\n  focal_point ", vec3_add(camera->location, ahead));
     }
+    if (camera->bumps) {
+        text_printf(out, "\n  normal { N%lu }", (unsigned long)camera->bumps);
+    }
     text_append(out, "\n}\n");
 }
 
@@ -326,7 +329,7 @@ static void dump_fog(const Fog *fog, TextBuffer *out)
 void scene_dump(const Scene *scene, TextBuffer *out)
 {
     dump_settings(&scene->settings, out);
-    if (scene->has_camera) {
+    if (scene->has_camera && !scene->camera.bumps) {
         dump_camera(&scene->camera, out);
     }
     dump_rgbft(out, "background { ", scene->background);
@@ -347,4 +350,7 @@ void scene_dump(const Scene *scene, TextBuffer *out)
     dump_meshes(scene, out);
     dump_shapes(scene, out);
     dump_sky(scene, out);
+    if (scene->camera.bumps) { // which come last, behind those of all textures
+        dump_camera(&scene->camera, out);
+    }
 }

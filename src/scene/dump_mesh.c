@@ -123,6 +123,11 @@ static void dump_triangles(const Scene *scene, const Part *part, const Mesh *mes
                 dump_vector(out, ", ", mesh_vector(mesh->normals[mesh->face_normals[face][i]]));
             }
         }
+        for (int i = 0; mesh->uvs && i < 3; i++) {
+            const float *at = mesh->uvs[mesh->face_uvs[face][i]];
+            text_append(out, i ? ", " : " uv_vectors ");
+            dump_numbers(out, (double[]){(double)at[0], (double)at[1]}, 2);
+        }
         if (part && mesh->face_textures && mesh->face_textures[face]) {
             dump_triangle_texture(
                 scene, scene->face_materials.items[part->mesh.materials + mesh->face_textures[face] - 1], out);
@@ -150,12 +155,28 @@ static void dump_faces(const Scene *scene, const Part *part, const Mesh *mesh, T
     text_append(out, " }\n");
 }
 
+static void dump_uvs(const Mesh *mesh, TextBuffer *out)
+{
+    text_printf(out, "  uv_vectors { %lu", (unsigned long)mesh->uv_count);
+    for (uint32_t i = 0; i < mesh->uv_count; i++) {
+        text_append(out, i % 4 == 0 ? ",\n    " : ", ");
+        double uv[2] = {(double)mesh->uvs[i][0], (double)mesh->uvs[i][1]};
+        mesh_uv_settle(mesh, uv);
+        float narrowed[2] = {(float)uv[0], (float)uv[1]}; // as they are read again
+        dump_numbers(out, (double[]){(double)narrowed[0], (double)narrowed[1]}, 2);
+    }
+    text_append(out, " }\n");
+}
+
 static void dump_lists(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
 {
     text_append(out, "mesh2 {\n");
     dump_floats("vertex_vectors", (const float(*)[3])mesh->vertices, mesh->vertex_count, out);
     if (mesh->normal_count > 0) {
         dump_floats("normal_vectors", (const float(*)[3])mesh->normals, mesh->normal_count, out);
+    }
+    if (mesh->uvs) {
+        dump_uvs(mesh, out);
     }
     if (part && mesh->texture_count > 0) {
         uint32_t single = count_single(scene, part);
@@ -166,6 +187,9 @@ static void dump_lists(const Scene *scene, const Part *part, const Mesh *mesh, T
         text_append(out, "  }\n");
     }
     dump_faces(scene, part, mesh, out);
+    if (mesh->uvs && mesh->face_uvs != mesh->faces) {
+        dump_indices("uv_indices", (const uint32_t(*)[3])mesh->face_uvs, mesh->face_count, out);
+    }
     if (mesh->face_normals && mesh->face_normals != mesh->faces) {
         dump_indices("normal_indices", (const uint32_t(*)[3])mesh->face_normals, mesh->face_count, out);
     }

@@ -41,7 +41,7 @@ static void dump_noise_modifiers(const Pattern *pattern, TextBuffer *out)
         dump_vector(out, "  form ", pattern->form);
         dump_number(out, " metric ", pattern->metric);
         dump_number(out, " offset ", pattern->offset);
-        text_append(out, pattern->is_solid ? " solid\n" : "\n");
+        text_append(out, pattern->flags & PATTERN_SOLID ? " solid\n" : "\n");
     }
     if (pattern->generator != 0) {
         text_printf(out, "  noise_generator %d\n", (int)pattern->generator);
@@ -88,8 +88,33 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
     text_append(out, "\n");
 }
 
+static void dump_surface_word(const Pattern *pattern, TextBuffer *out)
+{
+    text_append(out, pattern->flags & PATTERN_ON_SURFACE ? "  uv_mapping\n" : "");
+}
+
+static void dump_range(double low, double high, TextBuffer *out)
+{
+    if (low != high) {
+        dump_number(out, ", ", low);
+        dump_number(out, ", ", high);
+    }
+}
+
+static void dump_slope(const Pattern *pattern, TextBuffer *out)
+{
+    dump_vector(out, pattern->flags & PATTERN_TO_POINT ? " { point_at " : " { ", pattern->vector);
+    dump_range(pattern->metric, pattern->offset, out);
+    if (vec3_max_abs(pattern->form) > 0.0) {
+        dump_vector(out, " altitude ", pattern->form);
+        dump_range(pattern->exterior_factor, pattern->interior_factor, out);
+    }
+    text_append(out, " }");
+}
+
 static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBuffer *out)
 {
+    dump_surface_word(pattern, out);
     if (pattern->type == PATTERN_FUNCTION) {
         dump_formula(scene, pattern, out);
         return;
@@ -101,6 +126,9 @@ static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBu
     text_printf(out, pattern->magnet ? " %s" : "  %s", info->word);
     if (info->has_direction) {
         dump_vector(out, " ", pattern->vector);
+    }
+    if (pattern->type == PATTERN_SLOPE) {
+        dump_slope(pattern, out);
     }
     if (info->has_count) {
         text_printf(out, info->has_direction ? ", %d" : " %d", (int)pattern->count);
@@ -152,6 +180,7 @@ static void dump_image_map(const Scene *scene, const PatternedPigment *record, s
 {
     const ImageMap *map = &scene->image_maps.items[record->pattern.image];
     text_printf(out, "#declare P%zu = pigment {\n", number);
+    dump_surface_word(&record->pattern, out);
     dump_source(&scene->picture_sources.items[map->picture], out);
     text_printf(out, " map_type %lu%s", (unsigned long)map->projection, map->is_once ? " once" : "");
     if (map->interpolation != INTERPOLATION_NONE) {

@@ -36,6 +36,10 @@ typedef struct Mesh {
     uint32_t (*faces)[3];        // three of the vertices each
     uint32_t (*face_normals)[3]; // three of the normals each, or MESH_FLAT; NULL: all are flat; may be `faces`
     uint32_t *face_textures;     // from 1 on; 0: that of the mesh; NULL: all have that
+    uint32_t uv_count;
+    float (*uvs)[2];             // surface coordinates; NULL: all are 0
+    uint32_t (*face_uvs)[3];     // three of these each; may be `faces`
+    double (*uv_corners)[2];     // of a patch: what the coordinates of <0, 0>, <1, 0>, <1, 1>, <0, 1> become; NULL: those
     Vec3 inside_vector;
     bool has_inside;  // what an odd number of faces is before, along inside_vector
     Vec3 low, high;   // of the vertices that faces have
@@ -73,6 +77,19 @@ static inline Vec3 mesh_face_normal(const Mesh *mesh, uint32_t face)
 {
     Vec3 a = mesh_corner(mesh, face, 0);
     return vec3_cross(vec3_sub(mesh_corner(mesh, face, 2), a), vec3_sub(mesh_corner(mesh, face, 1), a));
+}
+
+// What <u, v> becomes between the four corners of a patch, if there are any.
+static inline void mesh_uv_settle(const Mesh *mesh, double uv[2])
+{
+    if (mesh->uv_corners) {
+        double u = uv[0], v = uv[1];
+        for (int k = 0; k < 2; k++) {
+            double first = (1.0 - u) * mesh->uv_corners[0][k] + u * mesh->uv_corners[1][k];
+            double last = (1.0 - u) * mesh->uv_corners[3][k] + u * mesh->uv_corners[2][k];
+            uv[k] = (1.0 - v) * first + v * last;
+        }
+    }
 }
 
 static inline bool mesh_face_is_smooth(const Mesh *mesh, uint32_t face)

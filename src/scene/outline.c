@@ -371,20 +371,36 @@ static double piece_nearest(const Piece *piece, OutlinePoint p)
     return clamped(((p.u - piece->points[0]) * along.u + (p.v - piece->points[1]) * along.v) / square);
 }
 
-OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *along)
+// How many of the first pieces are seen.
+static uint32_t seen_before(const Numbers *list, uint32_t end)
+{
+    uint32_t stride = outline_stride(list), seen = 0;
+    for (uint32_t i = 0; i < end; i++) {
+        seen += outline_place(list, stride, i)[PIECE_DEGREE] != 0.0;
+    }
+    return seen;
+}
+
+uint32_t outline_seen_count(const Numbers *list)
+{
+    return seen_before(list, outline_piece_count(list));
+}
+
+OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *along, double *place)
 {
     uint32_t stride = outline_stride(list), pieces = outline_piece_count(list);
-    double least = (double)INFINITY;
+    double least = (double)INFINITY, nearest_s = 0.0;
+    uint32_t nearest_piece = 0;
     OutlinePoint nearest = p;
     *along = (OutlinePoint){1.0, 0.0};
     for (int pass = 0; pass < 2; pass++) { // mostly what is near is in a piece's box, and no other box is as near
-        Place place = {p, pass == 0 ? 0.0 : sqrt(least)}, own = {p, 0.0};
+        Place reached = {p, pass == 0 ? 0.0 : sqrt(least)}, own = {p, 0.0};
         for (uint32_t i = 0; i < pieces; i++) {
-            if (skips_group(list, stride, &i, is_beside_place, &place)) {
+            if (skips_group(list, stride, &i, is_beside_place, &reached)) {
                 continue;
             }
             Piece piece = piece_of(list, stride, i);
-            if (is_beside_place(piece.box, &place) || (pass > 0 && !is_beside_place(piece.box, &own))) {
+            if (is_beside_place(piece.box, &reached) || (pass > 0 && !is_beside_place(piece.box, &own))) {
                 continue;
             }
             double s = piece_nearest(&piece, p);
@@ -393,9 +409,14 @@ OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *
             if (from < least) {
                 least = from;
                 nearest = at;
+                nearest_s = s;
+                nearest_piece = i;
                 *along = piece_along(&piece, s);
             }
         }
+    }
+    if (place) {
+        *place = seen_before(list, nearest_piece) + nearest_s;
     }
     return nearest;
 }

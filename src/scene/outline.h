@@ -119,8 +119,12 @@ bool outline_holds(const Numbers *list, OutlinePoint p);
 // Of a lathe: whether a point at that distance from its axis is inside.
 bool outline_holds_turned(const Numbers *list, double radius, double y);
 
-// The nearest point of it, and a vector along it there.
-OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *along);
+// The nearest point of it, a vector along it there, and how many of its pieces that are seen it is behind: 1.5 in the
+// middle of the second. `place` may be NULL.
+OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *along, double *place);
+
+// How many of its pieces are seen.
+uint32_t outline_seen_count(const Numbers *list);
 
 // The least and the greatest coordinates of the control points, which the outline does not leave.
 void outline_bounds(const Numbers *list, OutlinePoint *low, OutlinePoint *high);

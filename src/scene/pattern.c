@@ -36,6 +36,8 @@ static const PatternInfo patterns[PATTERN_COUNT] = {
     [PATTERN_SPIRAL2] = {.word = "spiral2", .has_count = true, .wave = WAVE_TRIANGLE},
     [PATTERN_FUNCTION] = {.word = "function"},
     [PATTERN_PIGMENT] = {.word = "pigment_pattern"},
+    [PATTERN_SLOPE] = {.word = "slope", .is_of_surface = true},
+    [PATTERN_AOI] = {.word = "aoi", .is_of_surface = true},
     [PATTERN_MANDEL] = {.word = "mandel", .has_count = true},
     [PATTERN_JULIA] = {.word = "julia", .has_direction = true, .has_count = true},
     [PATTERN_QUILTED] = {.word = "quilted", .is_special_normal = true},

@@ -46,11 +46,19 @@ typedef enum PatternType {
     PATTERN_SPIRAL2,
     PATTERN_FUNCTION, // a formula of x, y and z
     PATTERN_PIGMENT,  // the grey of a pigment
+    PATTERN_SLOPE,    // how the surface faces a direction, or a point
+    PATTERN_AOI,      // how it faces the ray
     PATTERN_AVERAGE, // no pattern: all that lies along it, mixed
     PATTERN_COUNT
 } PatternType;
 
 enum { PATTERN_STEPS_MOST = 1000000 }; // of mandel and julia
+
+enum {
+    PATTERN_SOLID = 1,      // crackle: each cell has one value
+    PATTERN_ON_SURFACE = 2, // its space holds the surface coordinates <u, v, 0> of what it lies on, and no places
+    PATTERN_TO_POINT = 4,   // slope: `vector` is a point
+};
 
 typedef enum WaveType { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY } WaveType;
 
@@ -60,14 +68,15 @@ typedef struct Pattern {
     int32_t generator; // NoiseGenerator, 0: the scene's
     int32_t octaves;   // of turbulence, at least 1
     int32_t count;     // spiral1: its arms; mandel, julia: steps, at least 1
-    int32_t is_solid;  // crackle: each cell has one value
+    uint32_t flags;    // PATTERN_SOLID and the like
     int32_t magnet, power;      // mandel, julia: which of the magnets, 0 for none; else the power of z in each step
     int32_t exterior, interior; // what is told of points that leave, and of those that stay
     double exterior_factor, interior_factor;
     Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar; julia: its number;
-                   // quilted: its two control values
-    Vec3 form;     // crackle: what the distances to the nearest three points count
-    double metric, offset; // crackle: exponent of the distance, a distance in a fourth dimension
+                   // quilted: its two control values; slope: the direction that it faces
+    Vec3 form;     // crackle: what the distances to the nearest three points count; slope: along what heights count
+    double metric, offset; // crackle: exponent of the distance, a distance in a fourth dimension; slope: the slopes of
+                           // 0 and of 1, equal: its own; the factors above are such heights of it
     double mortar; // brick: width of the mortar
     double frequency, phase; // both of no effect where frequency is 0
     double exponent; // WAVE_POLY
@@ -97,6 +106,7 @@ typedef struct PatternInfo {
     bool has_own_turbulence; // turbulence is part of the formula
     WaveType wave;           // if none is said
     bool is_special_normal;  // turns a normal in a way of its own, not by its value
+    bool is_of_surface;      // asks how the surface lies
 } PatternInfo;
 
 // The entry of a type, never NULL; PATTERN_NONE's word is "".

@@ -1,8 +1,9 @@
 // Surfaces where a polynomial of x, y and z is 0; inside is where it is less.
 //
-// A part's list of numbers is: the order n, whether `fixed` bounds the surface, the sums of the sizes of all
-// coefficients of each degree from 0 to n, then the coefficients in POV-Ray's order: by falling powers of x, then of y,
-// then of z, so that Horner's scheme in z, y and x takes them one after the other. Knows nothing of rays.
+// A part's list of numbers is: the order n, whether a box bounds the surface, that box's low and high corner, the sums
+// of the sizes of all coefficients of each degree from 0 to n, then the coefficients in POV-Ray's order: by falling
+// powers of x, then of y, then of z, so that Horner's scheme in z, y and x takes them one after the other. Knows nothing
+// of rays.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_POLYNOMIAL_H
@@ -14,7 +15,7 @@
 #include "math/vec3.h"
 #include "scene/scene.h"
 
-enum { POLYNOMIAL_ORDER_LEAST = 2, POLYNOMIAL_ORDER_MOST = 35 };
+enum { POLYNOMIAL_ORDER_LEAST = 2, POLYNOMIAL_ORDER_MOST = 35, POLYNOMIAL_HEAD = 8 };
 
 // How many coefficients a polynomial of an order has: (n + 1)(n + 2)(n + 3) / 6.
 static inline unsigned polynomial_count(unsigned order)
@@ -25,7 +26,7 @@ static inline unsigned polynomial_count(unsigned order)
 // How long the list is.
 static inline unsigned polynomial_list_count(unsigned order)
 {
-    return 2 + order + 1 + polynomial_count(order);
+    return POLYNOMIAL_HEAD + order + 1 + polynomial_count(order);
 }
 
 static inline unsigned polynomial_order(const double *list)
@@ -40,12 +41,12 @@ static inline bool polynomial_is_bounded(const double *list)
 
 static inline const double *polynomial_sizes(const double *list)
 {
-    return list + 2;
+    return list + POLYNOMIAL_HEAD;
 }
 
 static inline const double *polynomial_terms(const double *list)
 {
-    return list + 2 + polynomial_order(list) + 1;
+    return list + POLYNOMIAL_HEAD + polynomial_order(list) + 1;
 }
 
 // Completes a list of which the order and the coefficients are in place, and makes a part of a complete one.
@@ -55,7 +56,8 @@ void polynomial_part(const Numbers *list, Part *part);
 // Whether all coefficients but the last are 0.
 bool polynomial_is_constant(const double *list);
 
-// The box of a surface that holds its inside. False: none is known, which is so of all but some quadrics.
+// The box of a surface that holds its inside; the list is complete but for it. False: none is known, which is so of all
+// but ellipsoids and of what the terms of an even order of at most 8 close (polynomial_box.c).
 bool polynomial_box(const double *list, Vec3 *low, Vec3 *high);
 
 double polynomial_value(const double *list, Vec3 p);

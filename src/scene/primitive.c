@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "math/length.h"
 #include "scene/blob.h"
 #include "scene/isosurface.h"
 #include "scene/dump.h"
@@ -13,6 +14,7 @@
 #include "scene/outline.h"
 #include "scene/sor.h"
 #include "scene/superellipsoid.h"
+#include "scene/sweep.h"
 
 static bool is_between(double low, double value, double high)
 {
@@ -36,7 +38,7 @@ static void dump_first(const Part *part, TextBuffer *out)
 static double ball_support(const Part *part, Vec3 n)
 {
     (void)part;
-    return hypot(hypot(n.x, n.y), n.z);
+    return length_of(n.x, n.y, n.z);
 }
 
 static bool ball_holds(const Part *part, Vec3 p)
@@ -138,7 +140,7 @@ static void box_measure(const Part *part, Vec3 *half, Vec3 *middle)
 
 static double cone_support(const Part *part, Vec3 n)
 {
-    double round = hypot(n.x, n.y);
+    double round = length_of(n.x, n.y, 0.0);
     return fmax(round, part->data[0].x * round + n.z);
 }
 
@@ -174,7 +176,7 @@ static Vec3 cone_normal(uint32_t number)
 static double disc_support(const Part *part, Vec3 n)
 {
     (void)part;
-    return hypot(n.x, n.y);
+    return length_of(n.x, n.y, 0.0);
 }
 
 static bool disc_holds(const Part *part, Vec3 p)
@@ -487,6 +489,32 @@ static void superellipsoid_dump(const Part *part, TextBuffer *out)
     dump_numbers(out, &part->data[0].x, 2);
 }
 
+// ---- sphere sweep
+
+static bool sweep_holds(const Part *part, Vec3 p)
+{
+    Sweep sweep = sweep_of(part->list.items);
+    SweepBall ball;
+    return sweep_nearest(&sweep, p, &ball) < 0.0;
+}
+
+static uint32_t sweep_interval_most(const Part *part)
+{
+    return SWEEP_PIECES_MOST * sweep_of(part->list.items).segment_count + 1;
+}
+
+static void sweep_dump(const Part *part, TextBuffer *out)
+{
+    static const char *const words[] = {
+        [SWEEP_LINEAR] = "linear_spline", [SWEEP_B_SPLINE] = "b_spline", [SWEEP_CUBIC] = "cubic_spline"};
+    Sweep sweep = sweep_of(part->list.items);
+    text_printf(out, "%s %u", words[sweep.curve], sweep.ball_count);
+    for (uint32_t i = 0; i < sweep.ball_count; i++) {
+        dump_vector(out, ", ", sweep.balls[i].middle);
+        dump_number(out, ", ", sweep.balls[i].radius);
+    }
+}
+
 // ---- meshes: they reach as far as their boxes
 
 static bool solid_mesh_holds(const Part *part, Vec3 p)
@@ -675,6 +703,19 @@ static const PrimitiveClass classes[] = {
                              .support = superellipsoid_support,
                              .holds = superellipsoid_holds,
                              .dump = superellipsoid_dump},
+    [PART_SWEEP] = {.word = "sphere sweep",
+                    .head = "sphere_sweep { ",
+                    .family = FAMILY_STRAIGHT,
+                    .surface = PART_SWEEP,
+                    .key_count = 3,
+                    .interval_count = 2,
+                    .interval_most = sweep_interval_most,
+                    .has_list = true,
+                    .is_sized = true,
+                    .support = box_support,
+                    .holds = sweep_holds,
+                    .dump = sweep_dump,
+                    .measure = box_measure},
     [PART_ISOSURFACE] = {.word = "isosurface",
                          .head = "isosurface {",
                          .family = FAMILY_ISOSURFACE,

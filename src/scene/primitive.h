@@ -9,8 +9,16 @@
 #include "base/text.h"
 #include "scene/scene.h"
 
-// Surfaces of different families coincide nowhere but along lines; polynomials are looked at among themselves only.
-typedef enum SurfaceFamily { FAMILY_ROUND, FAMILY_STRAIGHT, FAMILY_TUBE, FAMILY_POLYNOMIAL, FAMILY_BLOB, FAMILY_ISOSURFACE } SurfaceFamily;
+// Surfaces whose families have no bit in common coincide nowhere but along lines. A polynomial may be any surface: a
+// ball, a cylinder or a torus.
+typedef enum SurfaceFamily {
+    FAMILY_ROUND = 1,
+    FAMILY_STRAIGHT = 2,
+    FAMILY_TUBE = 4,
+    FAMILY_BLOB = 8,
+    FAMILY_ISOSURFACE = 16,
+    FAMILY_POLYNOMIAL = 31,
+} SurfaceFamily;
 
 enum { FACE_CORNERS_MOST = 16 }; // of a flat face; a round one is the polygon in it
 

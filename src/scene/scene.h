@@ -40,6 +40,7 @@ typedef enum CameraType {
     CAMERA_CYLINDER_2,
     CAMERA_CYLINDER_3, // … or from one that moves along it
     CAMERA_CYLINDER_4,
+    CAMERA_BUMPY, // as prepared: one whose rays bumps turn
     CAMERA_TYPES
 } CameraType;
 
@@ -53,6 +54,7 @@ static inline bool camera_type_moves(CameraType type)
 //   perspective:   from location along direction + u right - v up
 //   orthographic:  from location + u right - v up along direction
 //   else:          from location, as render/records/camera.h has it
+// Bumps turn the direction as they turn a normal, at the point <u, -v, 0>.
 typedef struct Camera {
     CameraType type;
     Vec3 location, direction, right, up;
@@ -63,6 +65,7 @@ typedef struct Camera {
     double focal_distance; // … and meet those of the same (u, v) at this distance, > 0
     int blur_samples;      // rays a pixel where nothing else is said; with a lens >= 1
     int blur_least;        // of a pixel that has enough sooner; at most that many
+    uint32_t bumps; // 1 + one of Scene.normals; 0: none
     double blur_confidence, blur_variance; // which it has where its mean is so likely so near; variance 0: never
     Span span;
 } Camera;
@@ -196,6 +199,7 @@ typedef struct Scene {
     NumberPool numbers; // the lists of parts
     FormulaHost *formula_host; // of isosurfaces that want one, its own; NULL: none does
     double text_unit;          // a length of 1 of the scene's text, by which isosurfaces measure; not 1 at another scale
+    Vec3 text_origin;          // where its origin is, which surfaces without coordinates of their own ask for
     ARRAY(Mesh *) meshes; // owned; parts may share one
     size_t mesh_bytes;    // of all of them
     uint32_t plain_mesh_count; // of them, without textures of their own

@@ -62,6 +62,9 @@ static const SchemaProperty pattern_modifiers[] = {
     {"spiral2", TYPE_ACTION, ACTION_PATTERN, .doc = "so many arms that wind around z, to both sides"},
     {"function", TYPE_ACTION, ACTION_FUNCTION, .doc = "`{ … }` of x, y and z: what it gives there"},
     {"pigment_pattern", TYPE_BLOCK, ACTION_PATTERN, .doc = "`{ pigment }`: how bright its colour is"},
+    {"slope", TYPE_ACTION, ACTION_SLOPE,
+     .doc = "a direction, or `{ … }`: from 0, where the surface faces away from it, to 1"},
+    {"aoi", TYPE_ACTION, ACTION_PATTERN, .doc = "from 0.5, where the ray grazes the surface, to 1, where it is upright"},
     {"warp", TYPE_BLOCK, ACTION_WARP, .doc = "`{ … }`: bends space, as transforms do in the order in which they stand"},
     {"mandel", TYPE_ACTION, ACTION_PATTERN, .doc = "the Mandelbrot set in x and y, after so many steps"},
     {"julia", TYPE_ACTION, ACTION_PATTERN, .doc = "the Julia set of a complex number, after so many steps"},
@@ -105,6 +108,8 @@ static const SchemaProperty object_modifiers[] = {
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "the texture's pigment"},
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "the texture's bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "the texture's finish; what is not said stays as it was"},
+    {"uv_mapping", TYPE_ACTION, ACTION_SURFACE,
+     .doc = "alone: the texture, which follows, is laid out by the shape's surface coordinates"},
     {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what it is filled with"},
     {"material", TYPE_BLOCK, ACTION_MATERIAL, .doc = "a texture and an interior"},
     {"clipped_by", TYPE_BLOCK, ACTION_CLIP, .doc = "`{ objects }`: only what is inside of all of them is seen"},
@@ -136,6 +141,8 @@ static const SchemaProperty camera_properties[] = {
      .doc = "of a dome: half a turn across, cut below; black outside of it"},
     {"cylinder", TYPE_ACTION, ACTION_CYLINDER, .is_first = true,
      .doc = "1, 3: an upright one; 2, 4: a lying one; `angle` around, 90"},
+    {"normal", TYPE_BLOCK, ACTION_CAMERA_NORMAL,
+     .doc = "bumps that turn rays; the picture's corners are <-0.5, -0.5, 0> and <0.5, 0.5, 0>"},
     {"location", TYPE_VECTOR, AT(CameraDesc, location), .doc = "where the eye is"},
     {"direction", TYPE_VECTOR, AT(CameraDesc, direction), .doc = "from the eye to the middle of the picture"},
     {"right", TYPE_VECTOR, AT(CameraDesc, right), GIVEN(CameraDesc, has_right),
@@ -393,6 +400,13 @@ static const SchemaProperty prism_properties[] = {
 static const PrismDesc prism_defaults = {.part = OBJECT_PART};
 
 static const SuperellipsoidDesc superellipsoid_defaults = {.part = OBJECT_PART, .about = 1.0, .along = 1.0};
+
+static const SchemaProperty sweep_properties[] = {
+    {"tolerance", TYPE_NUMBER, AT(SweepDesc, tolerance), .is_first = true,
+     .doc = "changes nothing: no ray meets again what it leaves"},
+};
+
+static const SweepDesc sweep_defaults = {.part = OBJECT_PART, .size = 1.0};
 static const LatheDesc lathe_defaults = {.part = OBJECT_PART};
 static const SorDesc sor_defaults = {.part = OBJECT_PART};
 
@@ -517,7 +531,13 @@ static const SettingsDesc settings_defaults = {
 };
 
 #define AVERAGE {"average", TYPE_ACTION, ACTION_PATTERN, .doc = "all entries of the map at once, by their weights"}
+#define SURFACE                                                                                                        \
+    {                                                                                                                  \
+        "uv_mapping", TYPE_ACTION, ACTION_SURFACE, .doc = "stands first, alone: laid out by surface coordinates"       \
+    }
+
 static const SchemaProperty texture_properties[] = {
+    SURFACE,
     AVERAGE,
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "its colour"},
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
@@ -534,6 +554,7 @@ static const SchemaProperty normal_arguments[] = {
 };
 
 static const SchemaProperty normal_properties[] = {
+    SURFACE,
     AVERAGE,
     {"bump_size", TYPE_NUMBER, AT(NormalDesc, amount), .doc = "how deep"},
     {"accuracy", TYPE_NUMBER, AT(NormalDesc, accuracy), .range = POSITIVE,
@@ -549,6 +570,7 @@ static const SchemaProperty pigment_arguments[] = {
 };
 
 static const SchemaProperty pigment_properties[] = {
+    SURFACE,
     AVERAGE,
     {"color_map", TYPE_BLOCK, ACTION_MAP, .doc = "colours along a pattern of values"},
     {"colour_map", TYPE_BLOCK, ACTION_MAP, .doc = "the same"},
@@ -557,6 +579,23 @@ static const SchemaProperty pigment_properties[] = {
     {"quick_color", TYPE_COLOUR, AT(PigmentDesc, quick_colour), .doc = "accepted; changes no picture"},
     {"quick_colour", TYPE_COLOUR, AT(PigmentDesc, quick_colour), .doc = "accepted; changes no picture"},
 };
+
+#define SLOPE_AT(field) .at = (uint16_t)offsetof(SlopeDesc, field)
+
+static const SchemaProperty slope_arguments[] = {
+    {"direction", TYPE_VECTOR, SLOPE_AT(direction), .is_optional = true,
+     .doc = "what the surface may face"},
+    {"low slope", TYPE_NUMBER, SLOPE_AT(low), .is_optional = true, .doc = "the slope, from 0 to 1, that becomes 0 …"},
+    {"high slope", TYPE_NUMBER, SLOPE_AT(high), .is_optional = true, .doc = "… and 1"},
+};
+
+static const SchemaProperty slope_properties[] = {
+    {"point_at", TYPE_ACTION, ACTION_SLOPE_ITEM, .doc = "instead: a point, and then such slopes"},
+    {"altitude", TYPE_ACTION, ACTION_SLOPE_ITEM,
+     .doc = "a vector along which heights count, too; then those that become 0 and 1"},
+};
+
+static const SlopeDesc slope_defaults = {.high_altitude = 0.0};
 
 #define WARP_AT(field) .at = (uint16_t)offsetof(WarpDesc, warp.field)
 
@@ -946,6 +985,15 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                              .is_declarable = true,
                              .groups = {OBJECT_GROUPS},
                              .doc = "`<e, n>`: where (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) is less than 1."},
+    [KIND_SPHERE_SWEEP] = {.word = "sphere_sweep",
+                           .what = "a sphere sweep",
+                           .size = sizeof(SweepDesc),
+                           .defaults = &sweep_defaults,
+                           .is_object = true,
+                           .is_declarable = true,
+                           .groups = {LIST(sweep_properties), OBJECT_GROUPS},
+                           .doc = "A word for the curve, the number of balls, the middle and radius of each: all that a ball "
+                                  "covers."},
     [KIND_TEXT] = {.word = "text",
                    .what = "a text",
                    .size = sizeof(UnionDesc),
@@ -1202,6 +1250,13 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .defaults = &warp_defaults,
                    .groups = {LIST(warp_properties)},
                    .doc = "In what has a pattern: one of `turbulence`, `repeat`, `black_hole` and the mappings."},
+    [KIND_SLOPE] = {.word = "slope",
+                    .what = "a slope",
+                    .size = sizeof(SlopeDesc),
+                    .defaults = &slope_defaults,
+                    .arguments = LIST(slope_arguments),
+                    .groups = {LIST(slope_properties)},
+                    .doc = "In what has a pattern: how a surface lies."},
     [KIND_PATTERN] = {.word = "pattern",
                       .what = "a pattern",
                       .size = sizeof(PatternPart),
@@ -1223,7 +1278,6 @@ static const SchemaUnsupported unsupported[] = {
     {"parametric", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
     {"rainbow", true, NULL, "the rainbow"},
-    {"sphere_sweep", true, "use a `union` of spheres", NULL},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},
     {"iff", false, "save the picture as PNG", NULL},

@@ -37,6 +37,7 @@ typedef enum SchemaKind {
     KIND_LATHE,
     KIND_SOR,
     KIND_SUPERELLIPSOID,
+    KIND_SPHERE_SWEEP,
     KIND_TRIANGLE,
     KIND_SMOOTH_TRIANGLE,
     KIND_MESH,
@@ -75,6 +76,7 @@ typedef enum SchemaKind {
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
     KIND_WARP,
+    KIND_SLOPE, // the braces of the pattern `slope`
     KIND_IRID, // the braces of `irid`; written into a finish
     KIND_PATTERN, // of a function
     KIND_UNSUPPORTED, // declared, but of a kind or with a property that rtlang has not
@@ -139,11 +141,15 @@ typedef enum SchemaAction {
     ACTION_WARP,
     ACTION_TILES,
     ACTION_WARP_TYPE,
+    ACTION_SLOPE,      // the pattern
+    ACTION_SLOPE_ITEM, // what stands in its braces
     ACTION_FUNCTION,
     ACTION_IRID,
     ACTION_CYLINDER,
+    ACTION_CAMERA_NORMAL,
     ACTION_CHARSET,
     ACTION_NOISE_GENERATOR,
+    ACTION_SURFACE,
     ACTION_COUNT
 } SchemaAction;
 

@@ -57,6 +57,8 @@ typedef struct Plane {
 //   polygon         an outline of straight pieces in x and y, at z = 0
 //   isosurface      where the function of the list is at its threshold (scene/isosurface.h), within the box from fixed[0]
 //                   to fixed[1]
+//   sweep           what the balls of the list cover (scene/sweep.h), within the box from fixed[0] to fixed[1]; no number
+//                   of theirs is greater than 1, and one is at least 1/2
 //   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
 typedef enum PartKind {
     PART_SPHERE,
@@ -74,6 +76,7 @@ typedef enum PartKind {
     PART_LATHE,
     PART_SOR,
     PART_SUPERELLIPSOID,
+    PART_SWEEP,
     PART_ISOSURFACE,
     PART_MESH,
     PART_MESH_SOLID,

@@ -160,7 +160,7 @@ static void hint_of_sides(const Scene *scene, int width, int height, DiagSink *d
 void scene_hint_of_view(const Scene *scene, int width, int height, DiagSink *diags)
 {
     const Camera *camera = &scene->camera;
-    if (camera->type != CAMERA_PERSPECTIVE && camera->type != CAMERA_ORTHOGRAPHIC) {
+    if ((camera->type != CAMERA_PERSPECTIVE && camera->type != CAMERA_ORTHOGRAPHIC) || camera->bumps) {
         return;
     }
     if (diag_is_on(diags, DIAG_W0450)) {

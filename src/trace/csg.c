@@ -417,7 +417,7 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
     if (p.is_over) {
         return;
     }
-    if (csg->is_plain && plain_closest(&p, first)) {
+    if (csg->is_meet ? !csg->parts && meet_closest(&p, first) : csg->is_plain && plain_closest(&p, first)) {
         return;
     }
     traversal_set_states(&p);

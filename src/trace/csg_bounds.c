@@ -16,6 +16,7 @@
 
 enum { ROUNDS_MOST = 8, ROUNDS_MORE = 2, FRAMES_MOST = 4 };
 static const double DROPPED = 0x1p-44, SMALLEST = 0x1p-16, SLACK = 0x1p-10;
+static const double ROOTS_OFF = 0x1p-22; // roots that nearly are one may be off by the root of some u
 
 // A space in which a composite is measured.
 typedef struct Frame {
@@ -115,14 +116,24 @@ static double least_product(double factor, Range x, Range y)
     return factor == 0.0 ? 0.0 : fmin(low.low, high.low);
 }
 
-// What is left of a coordinate where a x² + b x + rest <= 0, for b in a range.
+// Half of what lies between the roots of a x² + b x + c, a > 0. Where there are none, or rounding says so: 0.
+static double half_between(double a, double b, double c)
+{
+    return sqrt(fmax(b * b - 4.0 * a * c, 0.0)) / (2.0 * a);
+}
+
+// What is left of a coordinate where a x² + b x + rest <= 0, for b in a range: right of 0 the least b leaves most, left
+// of it the greatest. Where 0 itself is not left, one of the two sides may have nothing.
 static Range quadratic_range(double a, Range b, double rest)
 {
     Range x = {-(double)INFINITY, (double)INFINITY};
     if (a > 0.0) {
-        double product = 4.0 * a * fmin(rest, 0.0);
-        x.high = (-b.low + sqrt(b.low * b.low - product)) / (2.0 * a);
-        x.low = (-b.high - sqrt(b.high * b.high - product)) / (2.0 * a);
+        bool is_left = rest <= 0.0 || b.high > 0.0, is_right = rest <= 0.0 || !is_left || b.low < 0.0;
+        double left = is_left ? b.high : b.low, right = is_right ? b.low : b.high;
+        x.low = -left / (2.0 * a) - half_between(a, left, rest);
+        x.high = -right / (2.0 * a) + half_between(a, right, rest);
+        double margin = ROOTS_OFF * fmax(fabs(x.low), fabs(x.high));
+        x = (Range){x.low - margin, x.high + margin};
     } else if (a == 0.0 && b.low > 0.0) {
         x.high = fmax(-rest / b.low, -rest / b.high);
     } else if (a == 0.0 && b.high < 0.0) {

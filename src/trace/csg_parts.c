@@ -65,7 +65,7 @@ bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surface
     for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count; i++) {
         count += is_leaf(table, surfaces, i);
     }
-    if (count < CSG_PARTS_LEAST) {
+    if (csg->is_plain || count < CSG_PARTS_LEAST) {
         return true;
     }
     Pages pages = {0};

@@ -13,7 +13,7 @@
 #include "trace/bounds.h"
 #include "trace/shapes.h"
 
-enum { CSG_PARTS_LEAST = 16 }; // in the tree; fewer are asked one after the other
+enum { CSG_PARTS_LEAST = 6 }; // in the tree; fewer are asked one after the other
 
 struct CsgParts {
     Bvh tree;
@@ -24,7 +24,7 @@ struct CsgParts {
 };
 
 // Sorts the parts of a composite, whose surfaces' boxes are given by solid. Leaves it without a tree where that is not
-// worth it. False when out of memory or cancelled.
+// worth it, or where the intervals of all its parts tell what is seen. False when out of memory or cancelled.
 bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads,
                     const atomic_bool *cancel) RT_MUST_CHECK;
 void csg_parts_fini(CsgTree *csg);

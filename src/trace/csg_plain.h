@@ -1,5 +1,6 @@
-// One node of a few convex leaves: where no crossings come together, what is seen follows from the leaves' intervals
-// alone, and most rays end there. Included by csg.c only, which does what is left.
+// One node of a few convex leaves, or of any number that have something in common: where no crossings come together,
+// what is seen follows from the leaves' intervals alone, and most rays end there. Included by csg.c only, which does
+// what is left.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_CSG_PLAIN_H
@@ -92,6 +93,39 @@ static bool plain_closest(CsgTraversal *p, Foremost *first)
         solid_offer(p->table, p->csg->first_solid + seen->solid, p->ray, seen->t,
                     crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
     }
+    return true;
+}
+
+// What convex solids have in common is seen at the last of their ends or, from within, at the first where one is left.
+// Whatever comes before that shows nothing. False where another crossing comes together with it, or where it has no
+// surface: nothing was decided.
+static bool meet_closest(CsgTraversal *p, Foremost *first)
+{
+    bool starts_inside = true;
+    Crossing *seen = NULL;
+    for (uint32_t i = 0; i < p->csg->solid_count; i++) {
+        starts_inside = starts_inside && p->is_inside[i];
+    }
+    for (uint32_t i = 0; i < p->count; i++) {
+        Crossing *c = &p->crossings[i];
+        bool is_better = !seen || (starts_inside ? c->t < seen->t : c->t > seen->t);
+        seen = c->leaves == starts_inside && is_better ? c : seen;
+    }
+    if (!seen) {
+        return true; // it is never left
+    }
+    if (!seen->has_surface || !(seen->t <= p->decided_until)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < p->count; i++) {
+        Crossing *c = &p->crossings[i];
+        bool is_before = crossing_is_before(c, seen);
+        if (c != seen && !crossing_is_apart(p, is_before ? c : seen, is_before ? seen : c)) {
+            return false;
+        }
+    }
+    solid_offer(p->table, p->csg->first_solid + seen->solid, p->ray, seen->t,
+                crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
     return true;
 }
 

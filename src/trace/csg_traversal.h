@@ -261,7 +261,7 @@ static bool mesh_is_past(const void *client, double t, uint32_t face)
 {
     const TraversalMesh *mesh = client;
     const Solid *solid = traversal_solid(mesh->p, mesh->index);
-    return !mesh_shows(solid->mesh.table, &mesh->p->objects[mesh->index], t) ||
+    return !mesh_shows(solid->mesh.table, &mesh->p->objects[mesh->index], t, face) ||
            face_is_past(mesh->p, mesh->index, t, face);
 }
 
@@ -271,7 +271,7 @@ static bool traversal_find_face(CsgTraversal *p, uint32_t index, double *t)
     const Solid *solid = traversal_solid(p, index);
     MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
     while (mesh_next(solid, cursor, t)) {
-        if (mesh_shows(solid->mesh.table, &p->objects[index], *t) && !face_is_past(p, index, *t, cursor->face)) {
+        if (mesh_shows(solid->mesh.table, &p->objects[index], *t, cursor->face) && !face_is_past(p, index, *t, cursor->face)) {
             return true;
         }
     }

@@ -87,10 +87,20 @@ typedef struct MeshAhead {
 typedef bool (*MeshIsPast)(const void *client, double t, uint32_t face); // t of the ray
 MeshAhead mesh_ahead(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client);
 
-// Of a field of heights: whether its surface is above the water at t of a ray in its space. What is below is none.
-static inline bool mesh_shows(const MeshTable *table, const Ray *object, double t)
+// Of a field of heights: whether its surface is not below the water where a ray in its space crosses a face at t. What
+// is below is none. A face of which no corner is below shows whatever rounding makes of t.
+static inline bool mesh_shows(const MeshTable *table, const Ray *object, double t, uint32_t face)
 {
-    return !table->mesh->field || object->origin.y + t * object->direction.y >= table->mesh->field->water;
+    const Mesh *mesh = table->mesh;
+    if (!mesh->field) {
+        return true;
+    }
+    double water = mesh->field->water, low = (double)INFINITY;
+    for (int i = 0; i < 3; i++) {
+        double height = (double)mesh->vertices[mesh->faces[face][i]][1];
+        low = height < low ? height : low;
+    }
+    return low >= water || object->origin.y + t * object->direction.y >= water;
 }
 
 // Whether a ray meets any face.

@@ -14,12 +14,8 @@
 #include "scene/polynomial.h"
 #include "trace/roots.h"
 
-// Of loops whose bounds are constants where it counts. clang unrolls these by itself, and warns of those that have none.
-#ifdef __clang__
-#define UNROLLED
-#else
-#define UNROLLED _Pragma("GCC unroll 5")
-#endif
+#define LINE_REAL double
+#include "trace/polynomial_line.h"
 
 enum { TERMS_MOST = POLYNOMIAL_ORDER_MOST + 1 };
 _Static_assert((int)POLYNOMIAL_ORDER_MOST <= (int)ROOTS_DEGREE_MOST, "the root finder has room");
@@ -37,68 +33,20 @@ typedef struct Line {
 
 // ---- the coefficients along a line
 
-// A polynomial of a degree, times b + d s, plus a number; a degree less than 0: it is 0.
-RT_ALWAYS_INLINE int times_line(double *p, int degree, double b, double d)
+RT_ALWAYS_INLINE void line_compose(const Line *line, int order, bool skips, double *whole)
 {
-    if (degree < 0) {
-        return degree;
-    }
-    p[degree + 1] = p[degree] * d;
-    UNROLLED
-    for (int i = degree; i > 0; i--) {
-        p[i] = p[i] * b + p[i - 1] * d;
-    }
-    p[0] *= b;
-    return degree + 1;
-}
-
-RT_ALWAYS_INLINE int plus(double *p, int degree, const double *q, int q_degree)
-{
-    UNROLLED
-    for (int i = 0; i <= q_degree; i++) {
-        p[i] = i <= degree ? p[i] + q[i] : q[i];
-    }
-    return q_degree > degree ? q_degree : degree;
-}
-
-// `whole` has room for order + 1. Where the order is no constant, leading coefficients of the surface that are 0 cost a
-// comparison; the sum is the same.
-RT_ALWAYS_INLINE void compose_of(const Line *line, int order, bool skips, double *whole)
-{
-    double row[TERMS_MOST], part[TERMS_MOST];
-    int whole_degree = -1;
-    const double *c = polynomial_terms(line->list);
-    UNROLLED
-    for (int i = order; i >= 0; i--) {
-        int row_degree = -1;
-        UNROLLED
-        for (int j = order - i; j >= 0; j--) {
-            int part_degree = -1;
-            UNROLLED
-            for (int k = order - i - j; k >= 0; k--) {
-                double term = *c++;
-                part_degree = times_line(part, part_degree, line->base.z, line->along.z);
-                part_degree =
-                    !skips || term != 0.0 || part_degree >= 0 ? plus(part, part_degree, &term, 0) : part_degree;
-            }
-            row_degree = times_line(row, row_degree, line->base.y, line->along.y);
-            row_degree = plus(row, row_degree, part, part_degree);
-        }
-        whole_degree = times_line(whole, whole_degree, line->base.x, line->along.x);
-        whole_degree = plus(whole, whole_degree, row, row_degree);
-    }
-    for (int i = whole_degree + 1; i <= order; i++) {
-        whole[i] = 0.0;
-    }
+    const double base[3] = {line->base.x, line->base.y, line->base.z};
+    const double along[3] = {line->along.x, line->along.y, line->along.z};
+    compose_of(line->list, base, along, order, skips, whole);
 }
 
 static void compose(const Line *line, double *whole)
 {
     int order = (int)polynomial_order(line->list);
     if (order == 4) {
-        compose_of(line, 4, false, whole);
+        line_compose(line, 4, false, whole);
     } else {
-        compose_of(line, order, true, whole);
+        line_compose(line, order, true, whole);
     }
 }
 
@@ -321,7 +269,7 @@ static bool quadric_root(const Line *line, const double *terms, const double *er
 static bool quadric_roots(const Line *line, double roots[2], unsigned *count, bool *is_inside)
 {
     double terms[3], sizes[3], errors[3];
-    compose_of(line, 2, false, terms);
+    line_compose(line, 2, false, terms);
     errors_of(line, 2, sizes, errors);
     double middle = -terms[1] / (2.0 * terms[2]), size = fabs(middle);
     double value = (terms[2] * middle + terms[1]) * middle + terms[0];
@@ -348,7 +296,7 @@ static bool quadric_roots(const Line *line, double roots[2], unsigned *count, bo
 static bool quadric_roots_left(const Line *line, bool inward, double *root, unsigned *count, bool *is_inside)
 {
     double terms[3], sizes[3], errors[3];
-    compose_of(line, 2, false, terms);
+    line_compose(line, 2, false, terms);
     errors_of(line, 2, sizes, errors);
     if (!(fabs(terms[2]) > errors[2] && fabs(terms[1]) > errors[1])) {
         return false;

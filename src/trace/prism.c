@@ -183,7 +183,7 @@ Vec3 prism_gradient(const Numbers *outline, Vec3 point, uint8_t side)
     if (side != PRISM_WALL) {
         return vec3(0.0, side == PRISM_LOW ? -1.0 : 1.0, 0.0);
     }
-    OutlinePoint along, at = outline_nearest(outline, outline_image(outline, point), &along);
+    OutlinePoint along, at = outline_nearest(outline, outline_image(outline, point), &along, NULL);
     Vec3 n = vec3(along.v, 0.0, -along.u);
     n.y = outline_is_conic(outline) ? -(n.x * at.u + n.z * at.v) : 0.0;
     return point.y < 0.0 && outline_is_conic(outline) ? vec3_neg(n) : n;
@@ -194,7 +194,7 @@ Vec3 prism_point(const Numbers *outline, double low, double high, Vec3 point, ui
     if (side != PRISM_WALL) {
         return vec3(point.x, side == PRISM_LOW ? low : high, point.z);
     }
-    OutlinePoint along, at = outline_nearest(outline, outline_image(outline, point), &along);
+    OutlinePoint along, at = outline_nearest(outline, outline_image(outline, point), &along, NULL);
     double size = outline_is_conic(outline) && point.y != 0.0 ? point.y : 1.0;
     return vec3(size * at.u, point.y, size * at.v);
 }

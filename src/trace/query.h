@@ -74,7 +74,7 @@ RT_ALWAYS_INLINE bool query_starts_beside_plane(const Geometry *g, unsigned feat
         return false;
     }
     if ((features & TRACE_PARTS) && starts_on_part(start)) {
-        return table_solid(&g->shapes, start.shape)->family == FAMILY_STRAIGHT;
+        return table_solid(&g->shapes, start.shape)->family & FAMILY_STRAIGHT;
     }
     return shape_kind(start.shape) == SHAPE_PLANE;
 }

@@ -443,16 +443,20 @@ unsigned lathe_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray 
 }
 
 // The nearest point of the curve in the plane of a point, and a vector along it.
-static OutlinePoint lathe_nearest(const Numbers *outline, double radius, double y, OutlinePoint *along)
+static OutlinePoint lathe_nearest(const Numbers *outline, double radius, double y, OutlinePoint *along, double *place)
 {
-    OutlinePoint other_along, at = outline_nearest(outline, (OutlinePoint){radius, y}, along);
+    double other_place = 0.0;
+    OutlinePoint other_along, at = outline_nearest(outline, (OutlinePoint){radius, y}, along, place);
     if (outline->items[OUTLINE_MIRRORED] == 0.0) {
         return at;
     }
-    OutlinePoint other = outline_nearest(outline, (OutlinePoint){-radius, y}, &other_along);
+    OutlinePoint other = outline_nearest(outline, (OutlinePoint){-radius, y}, &other_along, &other_place);
     if (hypot(other.u + radius, other.v - y) < hypot(at.u - radius, at.v - y)) {
         *along = (OutlinePoint){-other_along.u, other_along.v};
         at = (OutlinePoint){-other.u, other.v};
+        if (place) {
+            *place = other_place;
+        }
     }
     return at;
 }
@@ -462,7 +466,7 @@ Vec3 lathe_gradient(const Numbers *outline, Vec3 point, uint8_t side)
     OutlinePoint along;
     double radius = hypot(point.x, point.z);
     (void)side;
-    lathe_nearest(outline, radius, point.y, &along);
+    lathe_nearest(outline, radius, point.y, &along, NULL);
     if (!(radius > 0.0)) {
         return along.u != 0.0 ? vec3(0.0, -along.u, 0.0) : vec3(0.0, 1.0, 0.0);
     }
@@ -476,9 +480,18 @@ Vec3 lathe_point(const Numbers *outline, Vec3 point, uint8_t side)
     if (side != REVOLVED_CURVE) {
         return point;
     }
-    OutlinePoint at = lathe_nearest(outline, radius, point.y, &along);
+    OutlinePoint at = lathe_nearest(outline, radius, point.y, &along, NULL);
     double factor = radius > 0.0 ? at.u / radius : 0.0;
     return vec3(factor * point.x, at.v, factor * point.z);
+}
+
+// A piece of the curve is as much of the way as any other. Measured.
+double lathe_along(const Numbers *outline, Vec3 point)
+{
+    OutlinePoint along;
+    double place;
+    lathe_nearest(outline, hypot(point.x, point.z), point.y, &along, &place);
+    return place / outline_seen_count(outline);
 }
 
 // ---- surfaces of revolution
@@ -554,4 +567,21 @@ Vec3 sor_point(const Numbers *list, Vec3 point, uint8_t side)
     Vec3 n = vec3(2.0 * point.x, -slope, 2.0 * point.z);
     double length2 = vec3_length_squared(n);
     return length2 > 0.0 ? vec3_add_scaled(point, -off / length2, n) : point;
+}
+
+// So is a stretch; the ends have discs of their own, which begin in the middle of the lower one and end in that of the
+// upper one. Measured.
+double sor_along(const Numbers *list, Vec3 point, uint8_t side)
+{
+    uint32_t count = sor_stretch_count(list), i = sor_stretch_of(list, point.y);
+    double radius = hypot(point.x, point.z), edge = sor_squares(list, 0)[0];
+    if (side == REVOLVED_LOW) {
+        return edge > 0.0 ? radius / sqrt(edge) : 0.0;
+    }
+    edge = sor_squares(list, count - 1)[3];
+    if (side == REVOLVED_HIGH) {
+        return edge > 0.0 ? 1.0 - radius / sqrt(edge) : 1.0;
+    }
+    double from = sor_height(list, i), to = sor_height(list, i + 1);
+    return (i + (point.y - from) / (to - from)) / count;
 }

@@ -28,4 +28,8 @@ Vec3 sor_gradient(const Numbers *list, Vec3 point, uint8_t side);
 Vec3 lathe_point(const Numbers *outline, Vec3 point, uint8_t side);
 Vec3 sor_point(const Numbers *list, Vec3 point, uint8_t side);
 
+// The surface coordinate of a point along the curve, from 0 to 1.
+double lathe_along(const Numbers *outline, Vec3 point);
+double sor_along(const Numbers *list, Vec3 point, uint8_t side);
+
 #endif

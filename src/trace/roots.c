@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "trace/roots.h"
 
+#include <string.h>
+
 #include "math/extreme.h"
 
 enum { STEPS_MOST = 200, REFINE_MOST = 8 };
@@ -218,7 +220,7 @@ static int sign_beyond(const Polynomial *p, unsigned level, bool is_low)
 // for the next level: what the derivative does so near to 0 changes the polynomial by less than its own error.
 static bool sign_is_known(Polynomial *p, unsigned level, double x, int *sign)
 {
-    if (level == 0 || p->is_exact) {
+    if (p->refine && (level == 0 || p->is_exact)) {
         *sign = sign_at(p, level, x);
         return true;
     }
@@ -306,7 +308,8 @@ static unsigned lowest_roots(const Polynomial *p, unsigned level, double low, do
     return count;
 }
 
-static unsigned find_between(Polynomial *p, const Range *range, double *roots, int *sign)
+// The roots of the derivative, in room for as many as the degree.
+static unsigned find_turns(Polynomial *p, const Range *range, double *turns)
 {
     double places[2][ROOTS_DEGREE_MOST + 1];
     unsigned count = 0, level = p->degree > 2 ? p->degree - 2 : 1, now = 0;
@@ -318,7 +321,31 @@ static unsigned find_between(Polynomial *p, const Range *range, double *roots, i
             now = !now;
         }
     }
-    return level_roots(p, 0, range, places[now], count, roots, sign);
+    memcpy(turns, places[now], count * sizeof *turns);
+    return count;
+}
+
+static unsigned find_between(Polynomial *p, const Range *range, double *roots, int *sign)
+{
+    double turns[ROOTS_DEGREE_MOST + 1];
+    unsigned count = find_turns(p, range, turns);
+    return level_roots(p, 0, range, turns, count, roots, sign);
+}
+
+unsigned roots_and_turns(Polynomial *p, double low, double high, double *places)
+{
+    Range range = {.low = low, .high = high};
+    int sign;
+    p->is_exact = false;
+    while (p->degree > 0 && !(fabs(p->terms[p->degree]) > p->errors[p->degree])) {
+        p->degree--;
+    }
+    if (p->degree == 0) {
+        return 0;
+    }
+    set_levels(p);
+    unsigned count = find_turns(p, &range, places);
+    return count + level_roots(p, 0, &range, places, count, places + count, &sign);
 }
 
 // Whether a polynomial of degree 4 has no root, as it is for most lines that pass a surface by: of c4 x⁴ + … + c0 the

@@ -28,7 +28,7 @@ struct Polynomial {
     // The value at x is off by no more than the sum of errors[i] |x|^i, Horner's own rounding in it; the sum of
     // sizes[i] |x|^i is no less than that of all terms that make it.
     double errors[ROOTS_DEGREE_MOST + 1], sizes[ROOTS_DEGREE_MOST + 1];
-    // Fills in `exact`, once.
+    // Fills in `exact`, once. NULL: nothing better is known, and roots_and_turns alone may be asked.
     void (*refine)(Polynomial *polynomial, const void *owner);
     const void *owner;
     bool has_levels; // derivatives are in terms[]
@@ -52,6 +52,10 @@ unsigned roots_find_about(Polynomial *polynomial, double half, double *roots, in
 
 // The same by double words throughout, which costs some ten times as much.
 unsigned roots_find_exact(Polynomial *polynomial, double low, double high, double *roots, int *sign);
+
+// Between two places, in no order: the roots and those of the derivative, from coefficients as they are. Where doubles
+// do not tell the sign there is a place, too. `places` has room for twice the degree.
+unsigned roots_and_turns(Polynomial *polynomial, double low, double high, double *places);
 
 // Puts a root right by double words. False: the polynomial is too flat there, and only roots_find_exact knows better.
 bool roots_refine(Polynomial *polynomial, double *root);

@@ -55,6 +55,7 @@ typedef struct CsgTree {
     uint32_t interval_most;  // of one of its solids
     uint8_t hidden;
     bool is_plain; // all of a few convex solids in one node
+    bool is_meet;  // what convex solids, any number of them, have in common
     bool is_convex; // its solids are
     uint32_t order;
     uint32_t seen_count; // its solids from there on only clip others
@@ -72,12 +73,31 @@ static inline uint32_t item_index(ShapeItem item)
     return item & ~ITEM_LANES;
 }
 
-// Whether some rays are tested against a solid of that kind at once (trace/solid_lanes.h).
+// Whether some rays are tested against solids of that kind at once (trace/solid_lanes.h).
 static inline bool kind_has_lanes(PartKind kind)
 {
     const unsigned kinds = 1u << PART_SPHERE | 1u << PART_BOX | 1u << PART_CONE | 1u << PART_DISC | 1u << PART_TRIANGLE |
-                           1u << PART_SMOOTH_TRIANGLE;
+                           1u << PART_SMOOTH_TRIANGLE | 1u << PART_TORUS | 1u << PART_POLYNOMIAL;
     return kinds >> kind & 1;
+}
+
+// Whether that is so by trace/curve_lanes.h, and then of which solids of the kind: tori that do not go through
+// themselves and closed surfaces of order 4.
+static inline bool kind_is_curve(PartKind kind)
+{
+    return kind == PART_TORUS || kind == PART_POLYNOMIAL;
+}
+
+static inline bool solid_is_curve(const Solid *solid)
+{
+    return solid->kind == PART_TORUS ? solid->data[0].y <= solid->data[0].x
+                                     : solid->kind == PART_POLYNOMIAL && !solid_is_endless(solid) &&
+                                           polynomial_order(solid->list.items) == 4;
+}
+
+static inline bool solid_has_lanes(const Solid *solid)
+{
+    return kind_is_curve((PartKind)solid->kind) ? solid_is_curve(solid) : kind_has_lanes((PartKind)solid->kind);
 }
 
 // The box of an item as its leaf has it: in the tree's coordinates, rounded outward.
@@ -138,8 +158,8 @@ static inline bool shapes_are_abandoned(const ShapeTable *table)
     return table->abandon && trace_is_abandoned(table->abandon);
 }
 
-// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: one of the same family.
-// Such a ray has passed what lies within rounding of its start.
+// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: their families have a
+// bit in common. Such a ray has passed what lies within rounding of its start.
 static inline bool starts_beside(const ShapeTable *table, RayStart start, const Solid *solid)
 {
     if (start.shape == SHAPE_NONE) {
@@ -149,7 +169,7 @@ static inline bool starts_beside(const ShapeTable *table, RayStart start, const 
     uint8_t family = kind == SHAPE_PART     ? table->solids[part_index(start.shape)].family
                      : kind == SHAPE_SPHERE ? FAMILY_ROUND
                                             : FAMILY_STRAIGHT;
-    return family == solid->family;
+    return (family & solid->family) != 0;
 }
 
 // The material of a shape on a part.

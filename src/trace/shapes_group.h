@@ -20,9 +20,10 @@ typedef struct ShapeGroup {
     const Solid *left;
     double far; // of any origin from 0
     double start_error[TILE_RAYS]; // as in ShapeQuery
-    // Of balls and of straight solids, at most: see passed_error; -INFINITY: nothing.
+    // Of balls, straight solids and curves, at most: see passed_error; -INFINITY: nothing.
     _Alignas(64) double passed_round[TILE_RAYS];
     double passed_straight[TILE_RAYS];
+    double passed_curve[TILE_RAYS];
 } ShapeGroup;
 
 // n·d where some rays start on a solid's side, n being the gradient there.
@@ -31,6 +32,11 @@ RT_ALWAYS_INLINE Doubles start_along(const Solid *left, uint8_t side, const Doub
     int across = solid_classes[left->kind].across[side];
     if (across > 0) {
         return d[across - 1];
+    }
+    if (left->kind == PART_TORUS) {
+        Doubles rho = doubles_sqrt(f[0] * f[0] + f[2] * f[2]);
+        double ring = side == TORUS_OUTER ? left->data[0].x : -left->data[0].x;
+        return lanes_dot(f, d) - ring * ((f[0] * d[0] + f[2] * d[2]) / rho);
     }
     double slope = left->kind == PART_CONE ? 1.0 - left->data[0].x : 0.0;
     return left->kind == PART_CONE ? f[0] * d[0] + f[1] * d[1] + slope * doubles_sqrt(f[0] * f[0] + f[1] * f[1]) * d[2]
@@ -42,8 +48,9 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
 {
     const Solid *left = from->left;
     bool has_lanes = left && kind_has_lanes(left->kind);
-    bool is_round = left ? left->family == FAMILY_ROUND : shape_kind(from->start.shape) == SHAPE_SPHERE;
-    bool is_straight = left ? left->family == FAMILY_STRAIGHT : !is_round;
+    bool is_round = left ? (left->family & FAMILY_ROUND) != 0 : shape_kind(from->start.shape) == SHAPE_SPHERE;
+    bool is_straight = left ? (left->family & FAMILY_STRAIGHT) != 0 : !is_round;
+    bool is_curve = left && kind_is_curve((PartKind)left->kind);
     LaneSolid own;
     from->far = vec3_length(group->end) + group->farthest;
     if (has_lanes) {
@@ -51,7 +58,7 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
     }
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
-        if (has_lanes) {
+        if (has_lanes && left->kind != PART_POLYNOMIAL) {
             Doubles f[3], d[3];
             lane_solid_ray(&own, group->origin, group->direction, at, f, d);
             passed = own.slack.fixed / doubles_abs(start_along(left, part_side(from->start.shape), f, d));
@@ -63,6 +70,7 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
         const Doubles nothing = doubles_splat(-(double)INFINITY);
         doubles_store(&from->passed_round[at], is_round ? passed : nothing);
         doubles_store(&from->passed_straight[at], is_straight ? passed : nothing);
+        doubles_store(&from->passed_curve[at], is_curve ? passed : nothing);
     }
 }
 
@@ -71,6 +79,16 @@ typedef struct LanesMet {
     unsigned met, open;
 } LanesMet;
 
+// How much of a solid the rays have passed; of the one that they start on, nothing.
+RT_ALWAYS_INLINE Doubles group_passed(const ShapeGroup *from, const Solid *solid, PartKind kind, unsigned at)
+{
+    if (kind_is_curve(kind)) {
+        bool is_passed = from->left && solid != from->left && solid->family == from->left->family;
+        return is_passed ? doubles_load(&from->passed_curve[at]) : doubles_splat(-(double)INFINITY);
+    }
+    return doubles_load(&(kind == PART_SPHERE ? from->passed_round : from->passed_straight)[at]);
+}
+
 RT_ALWAYS_INLINE LanesMet group_solid_lanes(const ShapeGroup *from, const RayGroup *group, const LaneSolid *own,
                                             PartKind kind, const ItemBox *box, unsigned at, unsigned asked)
 {
@@ -78,12 +96,15 @@ RT_ALWAYS_INLINE LanesMet group_solid_lanes(const ShapeGroup *from, const RayGro
     Doubles f[3], d[3], direction[3];
     lane_solid_ray(own, group->origin, group->direction, at, f, d);
     lanes_load(group->direction, at, direction);
-    if (!solid_lanes(own, kind, f, d, direction, asked, &lanes)) {
+    bool is_met = kind_is_curve(kind) && own->solid == from->left
+                      ? curve_lanes(own, kind, f, d, true, asked, &lanes)
+                      : solid_lanes(own, kind, f, d, direction, asked, &lanes);
+    if (!is_met) {
         return (LanesMet){0, 0};
     }
     // The ends have a margin that is greater than way_end's.
     Doubles end = doubles_load(&group->distance[at]);
-    Doubles passed = doubles_load(&(kind == PART_SPHERE ? from->passed_round : from->passed_straight)[at]);
+    Doubles passed = group_passed(from, own->solid, kind, at);
     unsigned behind = doubles_gt(lanes.root - lanes.bound, end * (1.0 + 0x1p-40));
     unsigned before = doubles_gt(end * (1.0 - 0x1p-40), lanes.root + lanes.bound);
     unsigned met = lanes.possible & lanes.certain & before & doubles_gt(lanes.root, lanes.bound + passed);
@@ -132,7 +153,12 @@ static uint64_t group_solid(const ShapeGroup *from, const RayGroup *group, const
                             uint64_t occluded, uint64_t *may)
 {
     *may = 0;
-    if ((solid->hidden & from->start.use) || (solid == from->left && (!solid->flips || solid_is_flat(solid)))) {
+    if ((solid->hidden & from->start.use) ||
+        (solid == from->left && (solid_is_flat(solid) || (!solid->flips && solid_is_convex(solid))))) {
+        return occluded;
+    }
+    if (solid == from->left && solid->flips && !solid_is_convex(solid)) {
+        *may = ~occluded; // they go in
         return occluded;
     }
     switch (solid->kind) {
@@ -140,6 +166,8 @@ static uint64_t group_solid(const ShapeGroup *from, const RayGroup *group, const
     case PART_BOX: return group_solid_kind(from, group, solid, PART_BOX, box, occluded, may);
     case PART_CONE: return group_solid_kind(from, group, solid, PART_CONE, box, occluded, may);
     case PART_DISC: return group_solid_kind(from, group, solid, PART_DISC, box, occluded, may);
+    case PART_TORUS: return group_solid_kind(from, group, solid, PART_TORUS, box, occluded, may);
+    case PART_POLYNOMIAL: return group_solid_kind(from, group, solid, PART_POLYNOMIAL, box, occluded, may);
     default: return group_solid_kind(from, group, solid, PART_TRIANGLE, box, occluded, may);
     }
 }

@@ -165,8 +165,9 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
                      .interval_most = 1,
                      .is_convex = true,
                      .order = composite->order};
-    csg->is_plain = csg->node_count == 1 && csg->solid_count <= CSG_PLAIN_MOST &&
-                    node_is_all(&table->nodes[csg->first_node]) && !table->nodes[csg->first_node].is_inverse;
+    csg->is_meet = csg->node_count == 1 && node_is_all(&table->nodes[csg->first_node]) &&
+                   !table->nodes[csg->first_node].is_inverse;
+    csg->is_plain = csg->is_meet && csg->solid_count <= CSG_PLAIN_MOST;
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
         csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
@@ -187,6 +188,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
             solid->is_needed = solid->is_needed && node_is_all(node) && !node->is_inverse;
         }
         solid->decides = solid->is_needed && solid_is_convex(solid);
+        csg->is_meet = csg->is_meet && solid->decides;
     }
 }
 
@@ -473,7 +475,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
 {
     for (uint32_t i = 0; i < table->solid_count; i++) {
         if (table->solids[i].node == NODE_NONE) {
-            add_item(table, work, i | (kind_has_lanes(table->solids[i].kind) ? ITEM_LANES : 0), &work->solids[i]);
+            add_item(table, work, i | (solid_has_lanes(&table->solids[i]) ? ITEM_LANES : 0), &work->solids[i]);
         }
     }
     for (uint32_t i = 0; i < table->csg_count; i++) {

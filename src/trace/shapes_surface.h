@@ -91,7 +91,7 @@ static uint64_t shapes_surfaces(const ShapeTable *table, const double *const ori
     for (unsigned kinds = surfaces_kinds(table, surfaces, asked); kinds; kinds &= kinds - 1) {
         PartKind kind = (PartKind)__builtin_ctz(kinds);
         KindSurfaces of; // not cleared
-        if (!kind_has_lanes(kind)) {
+        if (!kind_has_lanes(kind) || kind == PART_POLYNOMIAL) {
             continue;
         }
         surfaces_of_kind(table, surfaces, asked, kind, &of);
@@ -99,6 +99,7 @@ static uint64_t shapes_surfaces(const ShapeTable *table, const double *const ori
         case PART_SPHERE: surfaces_fill(table, origin, apart, hits, PART_SPHERE, &of, surfaces); break;
         case PART_BOX: surfaces_fill(table, origin, apart, hits, PART_BOX, &of, surfaces); break;
         case PART_CONE: surfaces_fill(table, origin, apart, hits, PART_CONE, &of, surfaces); break;
+        case PART_TORUS: surfaces_fill(table, origin, apart, hits, PART_TORUS, &of, surfaces); break;
         case PART_SMOOTH_TRIANGLE:
             surfaces_fill(table, origin, apart, hits, PART_SMOOTH_TRIANGLE, &of, surfaces);
             break;

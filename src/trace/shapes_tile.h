@@ -243,6 +243,8 @@ static void tile_solid(ShapesTile *of, const Solid *solid, const ItemBox *box, d
     case PART_CONE: tile_solid_kind(of, solid, PART_CONE, box, may); break;
     case PART_DISC: tile_solid_kind(of, solid, PART_DISC, box, may); break;
     case PART_TRIANGLE: tile_solid_kind(of, solid, PART_TRIANGLE, box, may); break;
+    case PART_TORUS: tile_solid_kind(of, solid, PART_TORUS, box, may); break;
+    case PART_POLYNOMIAL: tile_solid_kind(of, solid, PART_POLYNOMIAL, box, may); break;
     default: tile_solid_kind(of, solid, PART_SMOOTH_TRIANGLE, box, may);
     }
 }

@@ -6,110 +6,8 @@
 #define TRACE_SHAPES_WALK_H
 
 #include "trace/bvh_walk.h"
-#include "trace/shapes.h"
-
-// The ray's line in the coordinates of the tree, as the boxes of items want it.
-typedef struct BoxLine {
-    bool is_set;
-    double low_from[3], high_from[3]; // planes are met at (plane - from) * inverse
-    double inverse[3], unscale;
-} BoxLine;
-
-// What a ray asks of all shapes.
-typedef struct ShapeQuery {
-    const ShapeTable *table;
-    const Ray *ray;
-    RayStart start;
-    double start_error; // less than 0: not asked for yet
-    const Solid *left; // that it starts on; NULL for none
-    bool is_any;       // whatever is met before the end of the way will do
-    const Solid *bounded; // the solid that is the first, where its hit's span is only bounded; NULL: no such
-    double bounded_enter; // where the ray enters its box
-    uint32_t at;          // of the item that was asked last among all
-    const ItemBox *box;   // of the item that is asked; NULL: it has none
-    const Bvh *tree;      // that the box is in
-    BoxLine line;
-} ShapeQuery;
-
-// ---- the boxes of items
-
-static void line_set(ShapeQuery *q)
-{
-    const Bvh *tree = q->tree;
-    BoxLine *line = &q->line;
-    Vec3 o = vec3_scale(tree->scale, vec3_sub(q->ray->origin, tree->centre));
-    const double origin[3] = {o.x, o.y, o.z}, d[3] = {q->ray->direction.x, q->ray->direction.y, q->ray->direction.z};
-    double reach = fabs(o.x) + fabs(o.y) + fabs(o.z) + (tree->half.x + tree->half.y + tree->half.z);
-    double pad = 12.0 * (DBL_EPSILON / 2) * reach;
-    for (int axis = 0; axis < 3; axis++) {
-        line->low_from[axis] = origin[axis] + pad;
-        line->high_from[axis] = origin[axis] - pad;
-        line->inverse[axis] = 1.0 / copysign(fabs(d[axis]) > 0x1p-60 ? fabs(d[axis]) : 0x1p-60, d[axis]);
-    }
-    line->unscale = 1.0 / tree->scale;
-    line->is_set = true;
-}
-
-// Whether the ray meets the item's box, and where it enters it. Which leaves a walk comes to depends on how each
-// instruction set rounds floats, and on what was met before; so that no answer does, an item counts only if this says
-// so, and not before `enter`. In doubles the planes, moved outward by 12 u D, may be off by 5 u D: there is always more
-// of the box than rounding of the ray's origin takes away, and always less than of the walk's, which moves them by
-// 32 u D and more (see bvh_walk_start). So each item that counts with a root up to some limit is in a leaf that is
-// visited with that limit.
-static bool item_enters(ShapeQuery *q, double *enter)
-{
-    *enter = 0.0;
-    if (!q->box) {
-        return true;
-    }
-    if (!q->line.is_set) {
-        line_set(q);
-    }
-    const BoxLine *line = &q->line;
-    double in = 0.0, out = (double)INFINITY;
-    for (int axis = 0; axis < 3; axis++) {
-        double low = (q->box->low[axis] - line->low_from[axis]) * line->inverse[axis];
-        double high = (q->box->high[axis] - line->high_from[axis]) * line->inverse[axis];
-        double near = low < high ? low : high, far = low < high ? high : low;
-        in = in < near ? near : in;
-        out = far < out ? far : out;
-    }
-    *enter = in * line->unscale;
-    return in <= out;
-}
-
-// ---- errors
-
-// Most rays meet nothing that it matters for.
-static double start_error(ShapeQuery *q)
-{
-    if (q->start_error < 0.0) {
-        q->start_error = shapes_start_error(q->table, q->ray, q->start);
-    }
-    return q->start_error;
-}
-
-// What a ray starts on has been passed up to the error of the start and the root's own, where they may coincide: how
-// much of that is the start's. Less than 0 where nothing has been passed.
-static double passed_error(ShapeQuery *q, const Solid *solid)
-{
-    return starts_beside(q->table, q->start, solid) ? start_error(q) : -1.0;
-}
-
-static bool is_passed(double t, double error, double passed)
-{
-    return passed >= 0.0 && !(t > error + passed);
-}
-
-// Offers a root of the item that is asked.
-static void root_offer(ShapeQuery *q, uint32_t index, double t, double error, uint8_t side, bool leaves,
-                       Foremost *first)
-{
-    double enter;
-    if (item_enters(q, &enter)) {
-        solid_offer(q->table, index, q->ray, t, crossing_span(t, error, enter), side, leaves, first);
-    }
-}
+#include "trace/shapes_query.h"
+#include "trace/solid_lanes.h"
 
 // ---- one solid
 
@@ -126,6 +24,52 @@ static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Forem
     }
 }
 
+// ---- a curve, whose first root the test in lanes tells; see curve_lanes.h
+
+// The same for one ray: whether it is told, and then where it is; `along` as in CurveFirst. *is_missed: for certain.
+static __attribute__((noinline)) bool curve_first(const Solid *solid, const Ray *object, double *t, double *along,
+                                                  bool *is_missed)
+{
+    Vec3 o = object->origin, v = object->direction;
+    const Doubles f[3] = {doubles_splat(o.x), doubles_splat(o.y), doubles_splat(o.z)};
+    const Doubles d[3] = {doubles_splat(v.x), doubles_splat(v.y), doubles_splat(v.z)};
+    CurveFirst first;
+    *is_missed = solid->kind == PART_TORUS ? !curve_lanes_first(solid, PART_TORUS, false, f, d, 1, &first)
+                                           : !curve_lanes_first(solid, PART_POLYNOMIAL, false, f, d, 1, &first);
+    if (*is_missed || !(first.certain & 1)) {
+        return false;
+    }
+    *t = first.root[0];
+    *along = first.along[0];
+    return true;
+}
+
+// All intervals, the root that is told in its place.
+static unsigned curve_intervals(const Solid *solid, const Ray *object, RayInterval *intervals)
+{
+    double t, along;
+    bool is_missed;
+    unsigned count = solid_intervals(solid, object, LEFT_NONE, intervals), nearest = 0;
+    if (count > 0 && curve_first(solid, object, &t, &along, &is_missed)) {
+        for (unsigned i = 1; i < count; i++) {
+            nearest = fabs(intervals[i].enter - t) < fabs(intervals[nearest].enter - t) ? i : nearest;
+        }
+        intervals[nearest].enter = t;
+    }
+    return count;
+}
+
+static double curve_error(const ShapeQuery *q, const Solid *solid, const Ray *object, double t)
+{
+    RayInterval intervals[solid->interval_most];
+    unsigned count = curve_intervals(solid, object, intervals), i = 0;
+    while (i + 1 < count && intervals[i].enter != t) {
+        i++;
+    }
+    double room = count > 0 ? interval_room(intervals, count, i) : (double)INFINITY;
+    return solid_end_error(solid, q->ray, object, t, 0, room);
+}
+
 // The error of a first hit of which only a bound is known. What is not a ball the ray does not start on.
 static double bounded_error(const ShapeQuery *q, const Ray *object, const Hit *hit)
 {
@@ -136,6 +80,9 @@ static double bounded_error(const ShapeQuery *q, const Ray *object, const Hit *h
     }
     if (solid_is_flat(solid)) {
         return solid_crossing_error(solid, q->ray, object, hit->t, 0);
+    }
+    if (solid_is_curve(solid)) {
+        return curve_error(q, solid, object, hit->t);
     }
     (void)solid_intervals(solid, object, LEFT_NONE, &interval);
     return solid_end_error(solid, q->ray, object, hit->t, part_side(hit->shape), interval.leave - interval.enter);
@@ -181,10 +128,10 @@ static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const S
     root_offer(q, index, t, error, 0, leaves, first);
 }
 
-// Takes a ball, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
+// Takes a solid, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
 // asks. True when it was.
-static bool ball_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
-                          Foremost *first)
+static bool solid_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
+                           Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
     double to = t + bound < enter ? enter : t + bound;
@@ -229,11 +176,28 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     }
     double passed = passed_error(q, solid);
     double root = q->is_any ? t : sphere_refine(&ray, &unit, t); // near the ends of the range the bound is not that of t
-    if (!is_passed(root, bound, passed) && ball_is_first(q, index, root, bound, leaves, enter, first)) {
+    if (!is_passed(root, bound, passed) && solid_is_first(q, index, root, bound, leaves, enter, first)) {
         return;
     }
     root = q->is_any ? sphere_refine(&ray, &unit, t) : root;
     ball_offer(q, index, &object, &ray, root, leaves, passed, first);
+}
+
+// A curve that the ray does not start on. False: several_closest is to be asked.
+static bool curve_closest(ShapeQuery *q, uint32_t index, const Ray *object, Foremost *first)
+{
+    const Solid *solid = &q->table->solids[index];
+    double t, along, enter;
+    bool is_missed;
+    if (!curve_first(solid, object, &t, &along, &is_missed)) {
+        return is_missed;
+    }
+    LaneSlack slack = lane_slack(solid, vec3_length(q->ray->origin));
+    double bound = (slack.fixed + slack.slope * t) / along;
+    if (t - bound > first->limit || !item_enters(q, &enter) || enter > first->limit) {
+        return true;
+    }
+    return !is_passed(t, bound, passed_error(q, solid)) && solid_is_first(q, index, t, bound, false, enter, first);
 }
 
 // A ball that the ray goes into where it starts.
@@ -299,7 +263,8 @@ static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t in
     if (shapes_are_abandoned(q->table)) {
         return; // a line through a polynomial takes up to a millisecond
     }
-    unsigned count = solid_intervals(solid, object, left, intervals);
+    bool is_told = left.side == SIDE_NONE && solid_is_curve(solid);
+    unsigned count = is_told ? curve_intervals(solid, object, intervals) : solid_intervals(solid, object, left, intervals);
     if (count == 0) {
         return;
     }
@@ -369,7 +334,7 @@ static __attribute__((noinline)) void mesh_closest(ShapeQuery *q, uint32_t index
             uint32_t face = table->faces[i];
             if (!mesh_ray_crosses(&query.shear, table->mesh, face, &at) || !(at.t > 0.0) || face == left ||
                 !(at.t < nearest || (at.t == nearest && face < found)) ||
-                !mesh_shows(table, &query.ray, at.t) ||
+                !mesh_shows(table, &query.ray, at.t, face) ||
                 face_is_passed(q, solid, &object, at.t / query.length, face, passed)) {
                 continue;
             }
@@ -412,6 +377,9 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
         return;
     }
     Ray object = solid_ray(solid, q->ray);
+    if (!is_start && solid_is_curve(solid) && curve_closest(q, index, &object, first)) {
+        return;
+    }
     span_refine(q, first);
     if (solid_is_flat(solid)) {
         flat_closest(q, index, &object, first);

@@ -18,6 +18,7 @@
 #include "trace/revolved.h"
 #include "trace/sphere.h"
 #include "trace/superellipsoid.h"
+#include "trace/sweep.h"
 #include "trace/torus.h"
 
 static void unit_axes(Vec3 axes[3], double z)
@@ -372,6 +373,25 @@ static void cube_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
     }
 }
 
+// ---- sphere sweep
+
+static unsigned sweep_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return sweep_intervals(solid->list.items, object, left, intervals);
+}
+
+static Vec3 sweep_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return sweep_gradient(solid->list.items, point);
+}
+
+static Vec3 sweep_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return sweep_point(solid->list.items, point);
+}
+
 // ---- the table
 
 const SolidClass solid_classes[PART_KINDS] = {
@@ -461,6 +481,11 @@ const SolidClass solid_classes[PART_KINDS] = {
                              .gradient = superellipsoid_side_gradient,
                              .point = superellipsoid_side_point,
                              .axes = cube_axes},
+    [PART_SWEEP] = {.intervals = sweep_side_intervals,
+                    .normal = sweep_side_gradient,
+                    .gradient = sweep_side_gradient,
+                    .point = sweep_side_point,
+                    .axes = box_axes},
     [PART_ISOSURFACE] = {.intervals = isosurface_intervals,
                          .normal = isosurface_normal,
                          .gradient = isosurface_normal,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "math/extreme.h"
+#include "math/length.h"
 #include "trace/plane.h"
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)
@@ -34,7 +35,7 @@ static double extent_of(const Solid *solid)
     double product = 1.0, sum = 0.0;
     for (int row = 0; row < 3; row++) {
         const double *m = solid->to_world.m[row];
-        double length = hypot(hypot(m[0], m[1]), m[2]);
+        double length = length_of(m[0], m[1], m[2]);
         product *= length;
         sum += length * fixed_size(solid, row);
     }

@@ -11,6 +11,7 @@
 #include <float.h>
 
 #include "trace/cone.h"
+#include "trace/curve_lanes.h"
 #include "trace/shapes.h"
 #include "trace/simd.h"
 
@@ -81,6 +82,14 @@ typedef struct LaneSlack {
 // The greatest that a component of a gradient is on the surface.
 RT_ALWAYS_INLINE double gradient_most(const Solid *solid)
 {
+    if (solid->kind == PART_TORUS) {
+        return 1.1 * solid->data[0].y; // it is as long as the tube is thick
+    }
+    if (solid->kind == PART_POLYNOMIAL) { // it is the polynomial's own
+        const double *sizes = polynomial_sizes(solid->list.items);
+        double r = greater_of(vec3_max_abs(solid->fixed[0]), vec3_max_abs(solid->fixed[1]));
+        return 1.1 * (((4.0 * sizes[4] * r + 3.0 * sizes[3]) * r + 2.0 * sizes[2]) * r + sizes[1]);
+    }
     double ratio = solid->kind == PART_CONE ? solid->data[0].x : 1.0;
     double radius = greater_of(1.0, ratio);
     return 1.1 * radius * greater_of(1.0, fabs(1.0 - ratio));
@@ -91,7 +100,7 @@ RT_ALWAYS_INLINE LaneSlack lane_slack(const Solid *solid, double far)
 {
     const double *columns = &solid->columns.x;
     const Vec3 low = solid->data[0], high = solid->data[1];
-    double sizes = solid->kind == PART_BOX ? vec3_sum_abs(low) + vec3_sum_abs(high) : 3.0;
+    double sizes = (solid->traits & SOLID_SIZED) ? vec3_sum_abs(low) + vec3_sum_abs(high) : 3.0;
     double unit = 1.1 * TRANSFORM_ROUNDING * gradient_most(solid), sum = columns[0] + columns[1] + columns[2];
     double fixed = unit * (sum * (far + vec3_length(solid->centre) + solid->extent) + sizes);
     return (LaneSlack){fixed, 1.1 * unit * sum};
@@ -340,6 +349,23 @@ RT_ALWAYS_INLINE bool flat_lanes(const LaneSolid *own, PartKind kind, const Doub
     return true;
 }
 
+// The first root of a curve; `starts`: all rays start on it and leave it.
+RT_ALWAYS_INLINE bool curve_lanes(const LaneSolid *own, PartKind kind, const Doubles f[3], const Doubles d[3],
+                                  bool starts, unsigned asked, SolidLanes *lanes)
+{
+    CurveFirst first;
+    if (!curve_lanes_first(own->solid, kind, starts, f, d, asked, &first)) {
+        return false;
+    }
+    lanes->possible = first.possible;
+    lanes->certain = first.certain;
+    lanes->leaves = 0;
+    lanes->side = (DoublesMask){0};
+    lanes->root = first.root;
+    lanes->bound = (own->slack.fixed + own->slack.slope * first.root) / first.along;
+    return true;
+}
+
 // The kinds, each with its test. `kind` is a constant of the caller, `world` the rays' directions. False when all of
 // `asked` are missed; nothing else is set then.
 RT_ALWAYS_INLINE bool solid_lanes(const LaneSolid *own, PartKind kind, const Doubles f[3], const Doubles d[3],
@@ -349,6 +375,8 @@ RT_ALWAYS_INLINE bool solid_lanes(const LaneSolid *own, PartKind kind, const Dou
     case PART_SPHERE: return ball_lanes(f, d, &own->slack, asked, lanes);
     case PART_BOX: return box_lanes(own, f, d, asked, lanes);
     case PART_CONE: return cone_lanes(own, f, d, asked, lanes);
+    case PART_TORUS: return curve_lanes(own, PART_TORUS, f, d, false, asked, lanes);
+    case PART_POLYNOMIAL: return curve_lanes(own, PART_POLYNOMIAL, f, d, false, asked, lanes);
     default: return flat_lanes(own, kind, f, d, world, asked, lanes);
     }
 }

@@ -94,6 +94,34 @@ RT_ALWAYS_INLINE void boxes_side(const Solid *solids, DoublesMask index, Doubles
     }
 }
 
+// torus_point and torus_normal of each.
+RT_ALWAYS_INLINE void tori_side(const Solid *solids, DoublesMask index, DoublesMask side, Doubles own[3],
+                                Doubles normal[3])
+{
+    const Doubles zero = doubles_splat(0.0), one = doubles_splat(1.0);
+    DoublesMask outer = side == TORUS_OUTER;
+    Doubles major = solids_gather(&solids->data[0].x, index), minor = solids_gather(&solids->data[0].y, index);
+    Doubles rho = doubles_sqrt(own[0] * own[0] + own[2] * own[2]), ring = doubles_choose(outer, major, -major);
+    Doubles from = rho - ring, length = doubles_sqrt(from * from + own[1] * own[1]), share = minor / length;
+    DoublesMask is_put = (rho > zero) & (length > zero);
+    Doubles factor = (ring + from * share) / rho;
+    own[0] = doubles_choose(is_put, factor * own[0], own[0]);
+    own[1] = doubles_choose(is_put, own[1] * share, own[1]);
+    own[2] = doubles_choose(is_put, factor * own[2], own[2]);
+    rho = doubles_sqrt(own[0] * own[0] + own[2] * own[2]);
+    DoublesMask is_off_axis = rho > zero;
+    factor = doubles_choose(outer, rho - major, -(rho + major)) / rho;
+    normal[0] = doubles_choose(is_off_axis, factor * own[0], zero);
+    normal[1] = doubles_choose(outer, own[1], -own[1]);
+    normal[2] = doubles_choose(is_off_axis, factor * own[2], zero);
+    length = doubles_sqrt(lanes_dot(normal, normal));
+    DoublesMask has_length = length > zero;
+    Doubles shrink = 1.0 / length;
+    normal[0] = doubles_choose(has_length, shrink * normal[0], zero);
+    normal[1] = doubles_choose(has_length, shrink * normal[1], one);
+    normal[2] = doubles_choose(has_length, shrink * normal[2], zero);
+}
+
 // flat_point and smooth_normal of each.
 RT_ALWAYS_INLINE void smooth_triangles_side(const Solid *solids, DoublesMask index, Doubles own[3], Doubles normal[3])
 {
@@ -121,6 +149,7 @@ RT_ALWAYS_INLINE void solids_side(const Solid *solids, PartKind kind, DoublesMas
         break;
     case PART_BOX: boxes_side(solids, index, side, own, normal); break;
     case PART_CONE: cones_side(solids, index, side, own, normal); break;
+    case PART_TORUS: tori_side(solids, index, side, own, normal); break;
     case PART_SMOOTH_TRIANGLE: smooth_triangles_side(solids, index, own, normal); break;
     default:
         own[2] = normal[0] = normal[1] = doubles_splat(0.0);

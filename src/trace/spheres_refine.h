@@ -6,26 +6,9 @@
 #ifndef TRACE_SPHERES_REFINE_H
 #define TRACE_SPHERES_REFINE_H
 
+#include "trace/double_words.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
-
-typedef struct DoubleWords {
-    Doubles hi, lo;
-} DoubleWords;
-
-RT_ALWAYS_INLINE DoubleWords two_sums(Doubles a, Doubles b)
-{
-    Doubles sum = a + b;
-    Doubles b_part = sum - a;
-    Doubles a_part = sum - b_part;
-    return (DoubleWords){sum, (a - a_part) + (b - b_part)};
-}
-
-RT_ALWAYS_INLINE DoubleWords two_products(Doubles a, Doubles b)
-{
-    Doubles product = a * b;
-    return (DoubleWords){product, doubles_product_error(a, b, product)};
-}
 
 typedef struct Balls {
     Doubles centre[3], radius_squared;

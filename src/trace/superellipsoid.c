@@ -19,7 +19,13 @@
 #include "trace/crossings.h"
 
 // PLACES_MOST: what a line is asked at, at most; exponents that are no shapes any more ask for more.
-enum { STEPS_MOST = 100, DEPTH_MOST = 60, PLACES_MOST = 2000, CROSSINGS_MOST = 2 * SUPERELLIPSOID_INTERVALS };
+enum {
+    STEPS_MOST = 100,
+    DEPTH_MOST = 60,
+    PLACES_MOST = 2000,
+    CROSSINGS_MOST = 2 * SUPERELLIPSOID_INTERVALS,
+    WHOLE_MOST = 64
+};
 
 // Powers above this are the same.
 static const double POWER_MOST = 1e300;
@@ -33,6 +39,8 @@ typedef struct Line {
     Vec3 exponents, o, d; // seen from a point near 0
     Vec3 rise;            // how the sizes of the coordinates change, in the part that is looked at
     double t_base, p, q;
+    double start; // of a ray that starts on the surface: how far that is from 0, in lengths of the direction; else 0
+    unsigned p_times, q_times; // both as whole numbers, 0 where one of them is none, or a great one
     Way way;
     Crossing crossings[CROSSINGS_MOST];
     uint32_t count, places;
@@ -57,6 +65,12 @@ static Place size_at(const Line *line, double t)
     return (Place){t, size - 1.0, slope_of(by.x, rise.x) + slope_of(by.y, rise.y) + slope_of(by.z, rise.z), 0.0};
 }
 
+// The power with an exponent that is less by 1.
+static double power_less(double base, double exponent, double power)
+{
+    return base > 0.0 ? power / base : pow(base, exponent - 1.0);
+}
+
 static Place place_at(const Line *line, double t)
 {
     if (line->way != WAY_MIXED) {
@@ -64,10 +78,10 @@ static Place place_at(const Line *line, double t)
     }
     Vec3 at = vec3_add_scaled(line->o, t, line->d), rise = line->rise;
     double p = line->p, q = line->q, x = fabs(at.x), y = fabs(at.y), z = less_of(fabs(at.z), 1.0);
-    double rest = z > 0.0 ? -expm1(q * log(z)) : 1.0, other = pow(rest, p / q);
-    double by_z = -p * pow(rest, p / q - 1.0) * pow(z, q - 1.0);
-    double slope = slope_of(p * pow(x, p - 1.0), rise.x) + slope_of(p * pow(y, p - 1.0), rise.y);
-    return (Place){t, (pow(x, p) + pow(y, p)) - other, slope, slope_of(by_z, rise.z)};
+    double rest = z > 0.0 ? -expm1(q * log(z)) : 1.0, other = pow(rest, p / q), of_x = pow(x, p), of_y = pow(y, p);
+    double by_z = -p * power_less(rest, p / q, other) * pow(z, q - 1.0);
+    double slope = slope_of(p * power_less(x, p, of_x), rise.x) + slope_of(p * power_less(y, p, of_y), rise.y);
+    return (Place){t, (of_x + of_y) - other, slope, slope_of(by_z, rise.z)};
 }
 
 static void cross_at(Line *line, double t)
@@ -77,7 +91,8 @@ static void cross_at(Line *line, double t)
     }
 }
 
-// Where the sign changes, once.
+// Where the sign changes, once. The root of a start on the surface is as small as rounding left it: what its place may
+// be off by is of the start's size.
 static double root_between(const Line *line, Place first, Place last)
 {
     double low = first.t, high = last.t, t = 0.5 * (low + high), before = high - low;
@@ -86,7 +101,7 @@ static double root_between(const Line *line, Place first, Place last)
         Place place = place_at(line, t);
         double next = t - place.value / (place.slope - place.other), change = fabs(next - t);
         *((place.value < 0.0) == is_low_inside ? &low : &high) = t;
-        if (place.value == 0.0 || change <= 0x1p-53 * fabs(t)) {
+        if (place.value == 0.0 || change <= 0x1p-53 * (fabs(t) + line->start)) {
             return t;
         }
         bool is_slow = !(next > low && next < high) || !(2.0 * change < before);
@@ -131,9 +146,49 @@ static void find_between(Line *line, Place first, Place last, unsigned depth)
 
 // ---- convex ones
 
+// Whole powers by multiplication.
+static double whole_power(double x, unsigned n)
+{
+    double power = 1.0;
+    for (; n > 0; n >>= 1) {
+        power = n & 1 ? power * x : power;
+        x *= x;
+    }
+    return power;
+}
+
+// The same function to the power of q, which takes one call of pow where exponents are whole, and none where they are
+// the same, and its slope along the line. It is convex, too.
+static double power_at(const Line *line, double t, double *slope)
+{
+    Vec3 at = vec3_add_scaled(line->o, t, line->d), d = line->d;
+    double x = fabs(at.x), y = fabs(at.y), z = fabs(at.z);
+    double by_x = whole_power(x, line->p_times - 1), by_y = whole_power(y, line->p_times - 1);
+    double by_z = whole_power(z, line->q_times - 1), across = by_x * x + by_y * y;
+    double by_across = line->p_times == line->q_times ? 1.0 : pow(across, line->q / line->p - 1.0);
+    *slope =
+        line->q * (by_across * (copysign(by_x, at.x) * d.x + copysign(by_y, at.y) * d.y) + copysign(by_z, at.z) * d.z);
+    return by_across * across + by_z * z - 1.0;
+}
+
+// A place next to the root that is met first from outside, or to where there is none; nearer to it than `t`, and
+// outside but for rounding, as Newton's steps are.
+static double place_before(const Line *line, double t, double end, double way)
+{
+    for (int i = 0; i < STEPS_MOST && line->p_times > 0; i++) {
+        double slope, value = power_at(line, t, &slope), step = value / (-way * slope);
+        if (!(value > 0x1p-16) || !(way * slope < 0.0) || !(step <= way * (end - t))) {
+            break;
+        }
+        t += way * step;
+    }
+    return t;
+}
+
 // The root that is met first from outside; false: there is none. `t` is outside; `way` is 1 or -1.
 static bool first_root(const Line *line, double t, double end, double way, double *root)
 {
+    t = place_before(line, t, end, way);
     for (int i = 0; i < STEPS_MOST; i++) {
         Vec3 gradient;
         double size =
@@ -186,9 +241,14 @@ static void line_set(Line *line, Vec3 exponents, const Ray *ray, bool is_start)
     line->t_base = is_start ? 0.0 : -vec3_dot(o, d) / vec3_length_squared(d);
     line->o = is_start ? o : vec3_add_scaled(o, line->t_base, d);
     line->d = d;
+    line->start = is_start ? vec3_max_abs(o) / vec3_max_abs(d) : 0.0;
     line->way = line->p >= 1.0 && line->q >= 1.0   ? WAY_CONVEX
                 : line->p <= 1.0 && line->q <= 1.0 ? WAY_CONCAVE
                                                    : WAY_MIXED;
+    bool are_whole =
+        line->p == floor(line->p) && line->q == floor(line->q) && line->p <= WHOLE_MOST && line->q <= WHOLE_MOST;
+    line->p_times = are_whole ? (unsigned)line->p : 0;
+    line->q_times = are_whole ? (unsigned)line->q : 0;
     line->count = line->places = 0;
 }
 

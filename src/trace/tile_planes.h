@@ -89,6 +89,7 @@ RT_ALWAYS_INLINE void solid_reach(const Solid *solid, PartKind kind, const Doubl
     const Doubles zero = doubles_splat(0.0);
     switch (kind) {
     case PART_BOX:
+    case PART_POLYNOMIAL:
         *low = *high = zero;
         for (int axis = 0; axis < 3; axis++) {
             Doubles a = from[axis] * own[axis], b = to[axis] * own[axis];
@@ -99,6 +100,11 @@ RT_ALWAYS_INLINE void solid_reach(const Solid *solid, PartKind kind, const Doubl
     case PART_CONE:
         *high = doubles_max(round, own[2] + cap);
         *low = doubles_min(-round, own[2] - cap);
+        break;
+    case PART_TORUS:
+        *high = from[0] * doubles_sqrt(own[0] * own[0] + own[2] * own[2]) +
+                from[1] * doubles_sqrt(own[0] * own[0] + own[1] * own[1] + own[2] * own[2]);
+        *low = -*high;
         break;
     case PART_DISC:
         *high = round;
@@ -116,9 +122,11 @@ RT_ALWAYS_INLINE double solid_farthest(const Solid *solid, PartKind kind, Vec3 o
     const double(*m)[3] = solid->to_world.m, *low = &solid->data[0].x, *high = &solid->data[1].x;
     double sum = vec3_sum_abs(offset);
     for (int axis = 0; axis < 3; axis++) {
-        double size = kind == PART_BOX    ? fabs(low[axis]) + fabs(high[axis])
-                      : kind == PART_CONE ? greater_of(1.0, low[0])
-                                          : 1.0;
+        bool has_box = kind == PART_BOX || kind == PART_POLYNOMIAL;
+        double size = has_box              ? fabs(low[axis]) + fabs(high[axis])
+                      : kind == PART_CONE  ? greater_of(1.0, low[0])
+                      : kind == PART_TORUS ? low[0] + low[1]
+                                           : 1.0;
         sum += size * (fabs(m[axis][0]) + fabs(m[axis][1]) + fabs(m[axis][2]));
     }
     return sum;

@@ -25,6 +25,7 @@ SPLITS = math.comb(2 * DRAWS, DRAWS) // 2  # exchanging the two is the same
 SIZES = [11, 13, 17, 19, 23, 27, 29, 31, 37, 41, 43, 47, 53, 59, 61, 64]  # of POV-Ray's blocks
 STILL = 0.25   # of 65535: where the means spread less, nothing is left to chance
 CODE_BAR = 2.0 # by which such blocks may differ
+MOST_APART = 1e-3  # of a picture's pixels
 LENS_STEP = 0.05
 LENS_BAR = 0.025  # share by which POV-Ray's lens may seem wider or narrower
 LENS_RAYS = [300, 400, 500]  # of POV-Ray's pictures, each with other rays; of rtlang's the middle one
@@ -45,9 +46,21 @@ def has_lens(path):
     return any(word.startswith("aperture") for word in found)
 
 
-def block_means(path):
-    """The means of a picture's blocks, in codes of 65535, by colour."""
+def pixels_apart(scene, folder, folders, size):
+    """The pixels in which a scene without chance differs, where they are few: what they show has another cause."""
+    pair = [os.path.join(folder, name) for name in ("ours.png", "theirs.png")]
+    pictures.render_rtlang(scene, pair[0], folders, *size, folder=os.path.dirname(scene))
+    pictures.render_povray(scene, pair[1], folders, *size, folder=os.path.dirname(scene))
+    ours, theirs = (pictures.read_png(path, depths=(16,))[2] for path in pair)
+    apart = {i // 3 for i, (one, other) in enumerate(zip(ours, theirs)) if abs(one - other) > CODE_BAR}
+    return apart if len(apart) <= MOST_APART * size[0] * size[1] else set()
+
+
+def block_means(path, apart=()):
+    """The means of a picture's blocks, in codes of 65535, by colour, as if the pixels `apart` were black."""
     width, height, values = pictures.read_png(path, depths=(16,))
+    for i in apart:
+        values[3 * i:3 * i + 3] = 0, 0, 0
     means = []
     for top in range(0, height, BLOCK):
         for left in range(0, width, BLOCK):
@@ -110,20 +123,20 @@ def lens_error(scene, folder, folders, size, factor=1.0):
     return sum(found) / len(found)
 
 
-def draw_rtlang(scene, folder, folders, size, count=DRAWS):
+def draw_rtlang(scene, folder, folders, size, count=DRAWS, apart=()):
     picture, found = os.path.join(folder, "ours.png"), []
     for seed in range(1, count + 1):
         pictures.render_rtlang(scene, picture, folders, *size, more=[f"--seed={seed}"], folder=os.path.dirname(scene))
-        found.append(block_means(picture))
+        found.append(block_means(picture, apart))
     return found
 
 
-def draw_povray(scene, folder, folders, size, sizes=tuple(SIZES[:DRAWS])):
+def draw_povray(scene, folder, folders, size, sizes=tuple(SIZES[:DRAWS]), apart=()):
     picture, found = os.path.join(folder, "theirs.png"), []
     for each in sizes:
         pictures.render_povray(scene, picture, folders, *size, folder=os.path.dirname(scene),
                                more=[f"Render_Block_Size={each}"])
-        found.append(block_means(picture))
+        found.append(block_means(picture, apart))
     return found
 
 

@@ -87,6 +87,34 @@ def judge_grain(tap, folder):
     tap.ok(not apart["like"], f"crand, a tenth more: {chance.words(apart)}")
 
 
+LAYERS = """#version 3.7; global_settings { assumed_gamma 1 }
+camera { location -5 * z look_at 0 }
+light_source { -1000 * z, rgb 1 }
+#declare Grainy = finish { ambient 0.2 diffuse 0.6 crand 0.1 }
+plane { z, 0
+    texture { pigment { rgb 0.5 } finish { Grainy } }
+    texture { pigment { rgb 1 transmit 0.6 } finish { Grainy } }
+    texture { pigment { rgb 1 transmit 0.6 } finish { Grainy } }
+}
+"""
+
+
+def judge_layers(tap, folder):
+    """Each layer has grain of its own: all of one would be twice as uneven."""
+    scene, picture = os.path.join(folder, "layers.pov"), os.path.join(folder, "layers.png")
+    with open(scene, "w", encoding="ascii") as out:
+        out.write(LAYERS)
+    found = []
+    for program in pictures.render_rtlang, pictures.render_povray:
+        program(scene, picture, [], *SHAPES_SIZE)
+        values = pictures.read_png(picture, depths=(16,))[2][::3]
+        found.append((statistics.fmean(values), statistics.variance(values)))
+    (mean, variance), (their_mean, their_variance) = found
+    z = (mean - their_mean) / ((variance + their_variance) / (SHAPES_SIZE[0] * SHAPES_SIZE[1])) ** 0.5
+    tap.ok(abs(z) < 4, f"crand of layers: the means are {z:.2f} of their errors apart")
+    tap.ok(0.9 < variance / their_variance < 1.1, f"crand of layers: the variance is {variance / their_variance:.3f} times POV-Ray's")
+
+
 def columns(path):
     """[(mean, variance of the mean)] of the columns, in shares of light."""
     width, height, values = pictures.read_png(path)
@@ -136,6 +164,7 @@ def main():
             tap.ok(not is_like(still), f"{name}: without jitter it is told apart: {words(still)}")
         judge_shapes(tap, folder)
         judge_grain(tap, folder)
+        judge_layers(tap, folder)
     return tap.done()
 
 

@@ -48,9 +48,11 @@ LEFT_OUT = {
     "tests/povray/pattern_*.scn and warp_*.scn have them",
     "height_field smooth water_level bicubic_patch": "tests/povray/shape_height_field*.scn and shape_bicubic*.scn have"
     " them",
+    "uv_mapping": "tests/povray/uv_*.scn have it",
     "tiles": "tests/povray/texture_tiles*.scn have them",
     "isosurface contained_by accuracy max_gradient max_trace all_intersections evaluate": "tests/povray/shape_isosurface*.scn"
     " have them",
+    "slope aoi altitude": "tests/povray/pattern_slope.scn, pattern_aoi.scn and pattern_facing*.scn have them",
     "magnet exterior": "tests/povray/pattern_fractal_*.scn have them",
     "perspective split_union": "on unless something else is said; tests/povray/*.scn have them",
     "camera light_source sphere global_settings declare": "in every scene",

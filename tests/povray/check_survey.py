@@ -18,17 +18,17 @@ import survey_times  # noqa: E402
 SURVEY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "survey.py")
 SCENES = {
     "accepted.pov": '#version 3.7; global_settings { assumed_gamma 1 }\n#include "part.inc"\n',
-    "refused.pov": '#version 3.7;\n/* prism */ #declare Word = "lathe"; // blob\njulia_fractal { <0, 0, 0, 0> }\n',
-    "packed.pov.gz": '#version 3.7;\nsphere { 0, 1 }\njulia_fractal { <0, 0, 0, 0> }\nsphere_sweep { linear_spline 2, 0, 1, x, 1 }\n',
+    "refused.pov": '#version 3.7;\n/* prism */ #declare Word = "lathe"; // blob\novus { 2, 1 }\n',
+    "packed.pov.gz": '#version 3.7;\nsphere { 0, 1 }\novus { 2, 1 }\nmedia { }\n',
     "part.inc": "sphere { 0, 1 pigment { rgb 1 } finish { ambient 1 } }\n",
 }
-FRACTAL, FIELD = "E0252 julia_fractal", "E0252 sphere_sweep"
+OVUS, MEDIA = "E0252 ovus", "E0252 media"
 EXPECTED = [
     ("accepted.pov", "accepted", [], None),
-    ("packed.pov.gz", "refused", [FRACTAL, FIELD], "packed.pov:3"),
-    ("refused.pov", "refused", [FRACTAL], "refused.pov:3"),
+    ("packed.pov.gz", "refused", [OVUS, MEDIA], "packed.pov:3"),
+    ("refused.pov", "refused", [OVUS], "refused.pov:3"),
 ]
-PLAN = [["fractals", 1, 2], ["patches and sweeps", 1, 1]]
+PLAN = [["patches and sweeps", 1, 2], ["media", 1, 1]]
 
 
 def write_scenes(folder):

@@ -209,46 +209,69 @@ def read(scene, options, folders, known):
     return record
 
 
-def without_chance(path):
-    """A copy of a scene without the words that make programs draw numbers by chance, each its own; the path itself when
-    there are none."""
-    with open(path, encoding="latin-1") as file:
+def still_text(path):
+    """A text without the words that make programs draw numbers by chance, each its own; None when there are none."""
+    with open(path, encoding="latin-1", newline="") as file:
         text = file.read()
     plain = chance.without(text)
-    if plain == text:
-        return path, False
-    copy = os.path.join(os.path.dirname(path), "still_" + os.path.basename(path))
-    with open(copy, "w", encoding="latin-1") as file:
-        file.write(plain)
-    return copy, True
+    return plain if plain != text else None
 
 
-def judge_chance(record, folders):
-    """What chance.py says of the scene as it is."""
+def still_folder(path, folders, top):
+    """A copy of a scene's folder in which no text has such words, nor any include file: those that have stand in it."""
+    folder = tempfile.mkdtemp(dir=top)
+    for place in (*folders, os.path.dirname(path)):
+        for source in glob.glob(os.path.join(place, "*")):
+            plain = still_text(source) if source.endswith((".inc", ".pov")) else None
+            copy = os.path.join(folder, os.path.basename(source))
+            if plain is not None:
+                with open(copy, "w", encoding="latin-1", newline="") as file:
+                    file.write(plain)
+            elif os.path.isfile(source) and place == os.path.dirname(path):
+                shutil.copyfile(source, copy)
+    return os.path.join(folder, os.path.basename(path))
+
+
+def judge_chance(record, still, folders):
+    """What chance.py says of the scene as it is; `still` is the same without chance."""
     with tempfile.TemporaryDirectory() as folder:
         try:
             if chance.has_lens(record["path"]):
                 lens = chance.lens_error(record["path"], folder, folders, SIZE)
                 return {"like": abs(lens) <= chance.LENS_BAR, "lens": lens}
-            return chance.judge(chance.draw_rtlang(record["path"], folder, folders, SIZE),
-                                chance.draw_povray(record["path"], folder, folders, SIZE))
+            apart = chance.pixels_apart(still, folder, folders, SIZE)
+            return chance.judge(chance.draw_rtlang(record["path"], folder, folders, SIZE, apart=apart),
+                                chance.draw_povray(record["path"], folder, folders, SIZE, apart=apart))
         except pictures.RunFailed as failure:
             return {"like": False, "failed": str(failure)}
 
 
-def render(record, options, folders):
-    """Adds what rtcheck says of an accepted scene; of one with chance, of the scene without it, and what means say."""
-    path, record["without_chance"] = without_chance(record["path"])
-    if record["without_chance"]:
-        record["chance"] = judge_chance(record, folders)
+def compare(path, options, folders):
+    """What rtcheck says of a scene."""
     command = [os.environ["RTCHECK"], "--json", "-j1", f"-W{SIZE[0]}", f"-H{SIZE[1]}",
                f"--elsewhere={ELSEWHERE}", *(f"-I{place}" for place in folders)]
     done = call(command, path, options.timeout * (ELSEWHERE + 2))
     if not done:
-        record["picture"] = {"failed": "time limit"}
-    else:
-        _, output, messages = done
-        record["picture"] = json.loads(output) if output.startswith("{") else {"failed": messages[-300:]}
+        return {"failed": "time limit"}
+    _, output, messages = done
+    return json.loads(output) if output.startswith("{") else {"failed": messages[-300:]}
+
+
+def render(record, options, folders):
+    """Adds what rtcheck says of an accepted scene; of one with chance, of the scene without it, and what means say. An
+    include file is read for chance where pictures differ: most scenes use little of one."""
+    path = record["path"]
+    record["without_chance"] = still_text(path) is not None
+    if not record["without_chance"]:
+        record["picture"] = compare(path, options, folders)
+        if record["picture"].get("agrees", True):
+            return record
+    with tempfile.TemporaryDirectory() as top:
+        still = still_folder(path, folders, top)
+        picture = compare(still, options, folders)
+        if record["without_chance"] or picture.get("beyond") != record["picture"].get("beyond"):
+            record["without_chance"], record["picture"] = True, picture
+            record["chance"] = judge_chance(record, still, folders)
     return record
 
 

@@ -406,6 +406,31 @@ class Writer:
             lambda: f"quadric {{ {v(1, 2)}, <{n(-0.5, 0.5)}, 0, {n(-0.5, 0.5)}>, <0, {n(-0.2, 0.2)}, 0>, -0.8",
             self.letters)
 
+    def curved(self):
+        """(head, whether it is a sheet) of a shape whose surface POV-Ray finds step by step: rays through glass of it, or
+        along its seams with others, end where its tolerances do."""
+        n = self.number
+        curve = lambda least: ", ".join(f"<{n(least, 0.9)}, {height}>" for height in (-0.83, -0.31, 0.27, 0.79))
+        wave = lambda: f"{n(0.2, 0.4)} + {n(0.1, 0.2)} * sin({n(3, 9)} * x) * cos({n(3, 9)} * y)"
+        return self.one_of(
+            lambda: (f"lathe {{ linear_spline 4, {curve(0.3)}", True),
+            lambda: (f"lathe {{ cubic_spline 6, <0.4, -1.1>, {curve(0.4)}, <0.5, 1.1>", True),
+            lambda: (f"sor {{ 6, <{n(0.3, 0.5)}, -1.1>, {curve(0.3)}, <0.4, 1.1>", False),
+            lambda: (f"superellipsoid {{ <{n(0.3, 1.2)}, {n(0.3, 1.2)}>", False),
+            lambda: (f"height_field {{ function {self.dice.randint(5, 20)}, {self.dice.randint(5, 20)} {{ {wave()} }}"
+                     + " smooth" * self.chance(0.4) + f" water_level {n(0.1, 0.3)}" * self.chance(0.3)
+                     + " translate -0.5 scale 1.6", True),
+            lambda: (f"isosurface {{ function {{ x*x + y*y*{n(0.8, 1.6)} + z*z - {n(0.4, 0.7)} + {n(0.05, 0.1)} * sin({n(3, 6)} * x) }} "
+                     "contained_by { sphere { 0, 0.97 } } accuracy 0.0001 max_gradient 4", True),
+            lambda: (f"blob {{ threshold {n(0.3, 0.6)} sphere {{ <-0.3, 0, 0>, {n(0.7, 0.9)}, 1 }} "
+                     f"cylinder {{ <0, -0.3, 0>, <0.4, 0.3, 0.2>, {n(0.5, 0.7)}, {n(0.6, 1)} }}", True),
+            lambda: ("bicubic_patch { " + f"type {self.dice.randint(0, 1)} flatness {self.enlarged(n(0.005, 0.1))} u_steps "
+                     f"{self.dice.randint(1, 4)} v_steps {self.dice.randint(1, 4)} " + ", ".join(
+                         f"<{column / 2 - 0.75}, {n(-0.5, 0.5)}, {row / 2 - 0.75}>" for row in range(4) for column in range(4)), True),
+            lambda: ("mesh { " + " ".join(
+                f"triangle {{ <-0.8, {n(-0.7, -0.5)}, {layer / 5}>, <0.9, {n(-0.6, 0)}, {layer / 5}>, <{n(-0.2, 0.2)}, 0.8, {layer / 5}> }}"
+                for layer in range(4)), True))
+
     def letters(self):
         font = self.dice.choice(["timrom", "cyrvetic", "crystal"])
         text = "".join(self.dice.choice(string.ascii_letters + string.digits + "!#$%&*+-?@") for _ in range(2))
@@ -490,7 +515,18 @@ class Writer:
         known = self.known("interior")
         return Block("interior {", ([known] if known else []) + (self.interior_items() if not known or self.chance(0.3) else []))
 
+    def curved_object(self, place):
+        head, is_sheet = self.curved()
+        items = self.surface() if head.startswith(("mesh", "bicubic", "height")) else self.solid_of(self.surface)
+        items = self.shuffled_in([self.transform(0.2) for _ in self.some(2)], items)
+        early = [self.clip()] * (not is_sheet and self.chance(0.15))
+        flags = [word for word in ("no_shadow", "no_reflection", "hollow", "no_image") if self.chance(0.05)]
+        items = early + self.shuffled_in([f"translate <{place[0]}, {place[1]}, {place[2]}>"] + flags, items)
+        return Block(head, self.torn(items) + self.growth())
+
     def object(self, place):
+        if self.chance(0.2):
+            return self.curved_object(place)
         head, first, tail, is_simple, is_flat = self.shape()
         # Along the seams and edges of glass rays meet two surfaces within POV-Ray's 1e-3.
         items = self.surface()

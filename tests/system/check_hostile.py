@@ -152,6 +152,11 @@ SCENES = {
     "surfaces of revolution of the greatest and the least numbers": HEAD + "".join(
         "sor { 5, <0, -1>, <%s, 0>, <0, 1>, <%s, %s>, <%s, 1e305> %s pigment { rgb 1 } }\n" % (*[size] * 2, high, size, words)
         for words in ("", "open") for high in ("2", "1e300") for size in ("1e300", "1e-9", "1e-320")),
+    "sphere sweeps of the greatest and the least numbers": HEAD + "".join(
+        "sphere_sweep { %s 5, 0, %s, y, %s, <1, 1, %s>, 0, %s*x, %s, z, 1 pigment { rgb 1 } }\n" % (curve, low, high, low, high, low)
+        for curve in ("linear_spline", "b_spline", "cubic_spline")
+        for low in ("1", "1e-320", "1e150") for high in ("1", "1.7e308", "1e-9")),
+    "a sphere sweep of ten thousand balls in one place": HEAD + "sphere_sweep { b_spline 10000" + ", 0, 1" * 10000 + " }\n",
     "superellipsoids of the greatest and the least numbers": HEAD + "".join(
         "superellipsoid { <%s, %s> pigment { rgb 1 } }\n" % (about, along)
         for about in ("1e300", "1e-9", "1e-320", "3") for along in ("1e300", "1e-9", "1e-320", "0.2")),

@@ -57,6 +57,11 @@ sphere { trace(Ball, -3*z, z), 0.2 + 0.1*F(1, 2, 3) }
 fog { fog_type 2 distance 20 fog_alt 1 turbulence 0.3 rgb 1 }
 """,
     "letters.scn": HEAD + 'text { ttf "timrom.ttf" "rt" 0.3, 0 pigment { rgb 1 } translate -x }\n',
+    "nothing.scn": HEAD + """#if (file_exists("nowhere.inc")) #end
+text { ttf "nowhere.ttf" "rt" 0.3, 0 }
+#fopen Data "nowhere.txt" read
+#include "colours.inc"
+""",
     "image.scn": HEAD + 'box { -1, 1 pigment { image_map { png "map.png" } } }\n',
     "wrong.scn": HEAD + "sphere { 0, Raduis pigmant { rgb 1 } }\nspere { 0, 1 }\n",
 }
@@ -69,6 +74,7 @@ RUNS = {
     "a picture as image_map": [*DRAW, "image.scn"],
     "meshes, blobs, prisms, functions": [*DRAW, "lists.scn"],
     "text": [*DRAW, "letters.scn"],
+    "files that are not there": [*DRAW, "nothing.scn"],
     "a faulty scene": [*DRAW, "wrong.scn"],
     "messages in JSON": [*DRAW, "--diagnostics=json", "wrong.scn"],
     "--dump=scene": ["--dump=scene", "shapes.scn"],

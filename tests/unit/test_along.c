@@ -11,7 +11,7 @@
 #include "unit/random.h"
 #include "unit/tap.h"
 
-enum { MOST = 12 };
+enum { MOST = 48 };
 
 typedef struct Record {
     uint32_t unused, first;

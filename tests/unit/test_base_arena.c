@@ -2,6 +2,7 @@
 //
 // SPDX-License-Identifier: MIT
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
@@ -123,7 +124,7 @@ static void test_mark_and_rewind(size_t before, size_t inside)
     ArenaMark mark = arena_mark(&arena);
     size_t settled = 0;
     bool is_steady = true;
-    for (int turn = 0; turn < 50; turn++) {
+    for (int turn = 0; turn < 30; turn++) {
         for (size_t i = 0; i < 10; i++) {
             void *piece = arena_alloc(&arena, inside);
             is_steady = is_steady && piece;
@@ -195,6 +196,26 @@ static void test_array(void)
     ARRAY_FREE(&records);
 }
 
+// What is grown keeps what is in it, wherever it is moved to.
+static void test_grow(size_t first)
+{
+    size_t count = first / sizeof(uint32_t), wrong = 0;
+    uint32_t *numbers = pages_grow(NULL, 0, count * sizeof *numbers);
+    for (size_t i = 0; numbers && i < count; i++) {
+        numbers[i] = (uint32_t)i;
+    }
+    for (int turn = 0; numbers && turn < 3; turn++) {
+        numbers = pages_grow(numbers, count * sizeof *numbers, 2 * count * sizeof *numbers);
+        for (size_t i = 0; numbers && i < 2 * count; i++) {
+            wrong += i < count && numbers[i] != (uint32_t)i;
+            numbers[i] = (uint32_t)i;
+        }
+        count *= 2;
+    }
+    tap_ok(numbers && wrong == 0, "%zu bytes grow to %zu", first, count * sizeof *numbers);
+    free(numbers);
+}
+
 static void test_pages(size_t bytes, size_t kept)
 {
     Pages pages = {0};
@@ -261,5 +282,8 @@ int main(void)
     for (size_t i = 0; i < RT_COUNT_OF(sizes); i++) {
         test_pages(sizes[i][0], sizes[i][1]);
     }
+    test_grow(1000);
+    test_grow(700000);
+    test_grow(3000004);
     return tap_done();
 }

@@ -177,11 +177,43 @@ static void test_form(uint64_t seed, const Form *form)
            found.bounded, found.composites);
 }
 
+// Far from 0, too, the box of what lies between two planes is hardly larger than that.
+static void test_size(uint64_t seed, const Form *form, double half)
+{
+    Random random = {seed};
+    double greatest = 0.0;
+    for (int turn = 0; turn < 100; turn++) {
+        Scene scene;
+        double list[LIST];
+        uint32_t root;
+        Transform place = transform_translate(random_point(&random, 20.0));
+        scene_init(&scene);
+        if (!scene_begin_composite(&scene, 0, 0) ||
+            !scene_add_node(&scene, NODE_INTERSECTION, false, NODE_NONE, 0, &root)) {
+            abort();
+        }
+        Part part = quadric(form, list, place);
+        add_leaf(&scene, part, root, false);
+        add_leaf(&scene, plane(&part, -1.0, true), root, false);
+        add_leaf(&scene, plane(&part, 1.0, false), root, false);
+        scene_end_composite(&scene);
+        Geometry *g = prepare(&scene, 0);
+        const Bvh *tree = &g->shapes.tree;
+        greatest = fmax(greatest, fmax(tree->half.x, tree->half.z) / tree->scale / half);
+        geometry_free(g);
+        scene_fini(&scene);
+    }
+    tap_ok(greatest > 0.0 && greatest < 1.1, "%s: a box as large as what is in it (%.3f times)", form->name, greatest);
+}
+
 int main(void)
 {
     uint64_t seed = random_seed(NULL);
     for (size_t i = 0; i < RT_COUNT_OF(forms); i++) {
         test_form(seed + i, &forms[i]);
     }
+    test_size(seed, &forms[0], 1.0);
+    test_size(seed, &forms[1], 1.0);
+    test_size(seed, &forms[2], sqrt(2.0));
     return tap_done();
 }

@@ -15,7 +15,7 @@
 #ifdef WITH_MPFR
 #include "unit/roots_oracle.h"
 
-enum { ORDER_MOST = ORACLE_DEGREE, LIST_MOST = 2 + ORDER_MOST + 1 + 165 };
+enum { ORDER_MOST = ORACLE_DEGREE, LIST_MOST = POLYNOMIAL_HEAD + ORDER_MOST + 1 + 165 };
 
 typedef struct Surface {
     unsigned order;

@@ -22,7 +22,11 @@ typedef struct PatchDrawing {
     const Vec3 (*whole)[4];
     Mesh *mesh;
     uint32_t pieces, pieces_most;
+    bool has_uv; // some texture asks for them
 } PatchDrawing;
+
+// Surface coordinates of the corners, round the patch, if nothing is said.
+static const double plain_uv[4][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
 
 // A part of it: from `low` to `high` across the rows and along them, halved `depth` times.
 typedef struct PatchPiece {
@@ -97,17 +101,22 @@ static void halve(const PatchPiece *piece, int side, PatchPiece *low, PatchPiece
     }
 }
 
-// Whether no point is as far as that from the plane through three of the corners.
+// Whether no point is as far as that from the plane through three of the corners. Where the first row is one point the
+// last corner takes part; where there is no plane, nothing is flat. Measured.
 static bool is_flat(const PatchPiece *patch, double flatness)
 {
     Vec3 corner = patch->points[0][0];
-    Vec3 normal = vec3_cross(vec3_sub(patch->points[0][3], corner), vec3_sub(patch->points[3][0], corner));
-    double length = vec3_length(normal), greatest = 0.0;
-    for (int i = 0; length > 0.0 && i < POINTS; i++) {
-        double distance = fabs(vec3_dot(normal, vec3_sub(patch->points[i / 4][i % 4], corner))) / length;
-        greatest = distance > greatest ? distance : greatest;
+    Vec3 along = vec3_sub(patch->points[0][3], corner);
+    if (vec3_equal(along, vec3(0.0, 0.0, 0.0))) {
+        along = vec3_sub(patch->points[3][3], corner);
     }
-    return greatest < flatness;
+    Vec3 normal = vec3_cross(along, vec3_sub(patch->points[3][0], corner));
+    double length = vec3_length(normal);
+    bool is_near = length > 0.0;
+    for (int i = 0; is_near && i < POINTS; i++) {
+        is_near = fabs(vec3_dot(normal, vec3_sub(patch->points[i / 4][i % 4], corner))) / length < flatness;
+    }
+    return is_near;
 }
 
 // ---- triangles
@@ -121,6 +130,11 @@ static bool add_corner(PatchDrawing *drawing, double across, double along)
     kept[0] = (float)normal.x;
     kept[1] = (float)normal.y;
     kept[2] = (float)normal.z;
+    if (mesh->uvs) {
+        float *uv = mesh->uvs[mesh->uv_count++];
+        uv[0] = (float)along;
+        uv[1] = (float)across;
+    }
     return mesh_narrow((double[]){point.x, point.y, point.z}, vertex) ||
            eval_fault(drawing->ev, DIAG_E0472, drawing->patch->part.span, MESH_NOT_NARROW);
 }
@@ -219,10 +233,18 @@ static bool make_room(PatchDrawing *drawing)
     mesh->normals = malloc(4 * pieces * sizeof *mesh->normals);
     mesh->faces = malloc(2 * pieces * sizeof *mesh->faces);
     mesh->face_normals = mesh->faces; // a vertex has one normal
+    mesh->uvs = drawing->has_uv ? malloc(4 * pieces * sizeof *mesh->uvs) : NULL;
+    mesh->face_uvs = drawing->has_uv ? mesh->faces : NULL;
+    bool has_corners = drawing->has_uv && memcmp(drawing->patch->uv, plain_uv, sizeof plain_uv) != 0;
+    mesh->uv_corners = has_corners ? malloc(sizeof plain_uv) : NULL;
     mesh->source = span.begin;
-    if (!mesh->vertices || !mesh->normals || !mesh->faces) {
+    if (!mesh->vertices || !mesh->normals || !mesh->faces || (drawing->has_uv && !mesh->uvs) ||
+        (has_corners && !mesh->uv_corners)) {
         mesh_free(mesh);
         return eval_no_memory(ev, span);
+    }
+    if (has_corners) {
+        memcpy(mesh->uv_corners, drawing->patch->uv, sizeof plain_uv);
     }
     drawing->mesh = mesh;
     return true;
@@ -239,7 +261,8 @@ ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *tran
         points[i / 4][i % 4] = vec3_sub(point, origin);
     }
     PatchDrawing drawing = {
-        .ev = ev, .patch = patch, .whole = (const Vec3(*)[4])points, .pieces_most = MESH_FACES_MOST / 4};
+        .ev = ev, .patch = patch, .whole = (const Vec3(*)[4])points, .pieces_most = MESH_FACES_MOST / 4,
+        .has_uv = ev->objects->uses_uv};
     bool is_fine = draw_all(&drawing) && make_room(&drawing) && draw_all(&drawing);
     Mesh *mesh = drawing.mesh;
     if (is_fine && mesh->face_count > 0) {
@@ -326,20 +349,25 @@ static bool read_words(Block *block, PatchDesc *patch)
     return has_type || block_fault(block, DIAG_E0253, block_here(block), "a bicubic_patch needs a `type`: 0 or 1");
 }
 
-// Four places in a picture, which change nothing.
-static bool pass_uv_vectors(Block *block)
+// The surface coordinates of the corners, round the patch.
+static bool read_uv_vectors(Block *block, PatchDesc *patch)
 {
+    memcpy(patch->uv, plain_uv, sizeof plain_uv);
     if (!cursor_at_word(&block->cursor, W_uv_vectors)) {
         return true;
     }
     cursor_skip(&block->cursor);
     for (int i = 0; i < 4; i++) {
-        Value value;
+        float narrowed[2];
+        Span span = block_here(block);
         if (!cursor_at_value(&block->cursor)) {
-            return block_fault(block, DIAG_E0253, block_here(block), "`uv_vectors` needs four vectors after it");
+            return block_fault(block, DIAG_E0253, span, "`uv_vectors` needs four vectors after it");
         }
-        if (!cursor_value(&block->cursor, &value)) {
+        if (!mesh_read_uv(&block->cursor, span, patch->uv[i])) {
             return false;
+        }
+        if (!mesh_narrow_uv(patch->uv[i], narrowed)) {
+            return block_fault(block, DIAG_E0472, span, MESH_NOT_NARROW);
         }
         cursor_take_comma(&block->cursor);
     }
@@ -371,5 +399,5 @@ bool bicubic_body(Block *block)
     PatchDesc *patch = &block->record->patch;
     bool has_words = read_words(block, patch);
     cursor_take_comma(&block->cursor);
-    return has_words && pass_uv_vectors(block) && read_points(block, patch);
+    return has_words && read_uv_vectors(block, patch) && read_points(block, patch);
 }

@@ -54,12 +54,16 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_TILES] = tiles_action,
 
     [ACTION_WARP_TYPE] = warp_type_action,
+    [ACTION_SLOPE] = slope_action,
+    [ACTION_SLOPE_ITEM] = slope_item_action,
     [ACTION_FUNCTION] = pattern_function_action,
     [ACTION_IRID] = finish_irid_action,
     [ACTION_CYLINDER] = camera_cylinder_action,
     [ACTION_CHARSET] = settings_charset_action,
     [ACTION_NOISE_GENERATOR] = settings_generator_action,
+    [ACTION_CAMERA_NORMAL] = camera_normal_action,
     [ACTION_AREA_LIGHT] = light_area_action,
+    [ACTION_SURFACE] = surface_action,
     [ACTION_SHADOWLESS] = light_shadowless_action,
     [ACTION_LOOKS_LIKE] = light_look_action,
 };
@@ -80,6 +84,7 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_LATHE] = lathe_body,
     [KIND_SOR] = sor_body,
     [KIND_SUPERELLIPSOID] = superellipsoid_body,
+    [KIND_SPHERE_SWEEP] = sweep_body,
     [KIND_MESH] = mesh_body,
     [KIND_MESH2] = mesh2_body,
     [KIND_HEIGHT_FIELD] = height_field_body,
@@ -104,6 +109,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_TRANSFORM] = transform_close,
     [KIND_PATTERN] = pattern_close,
     [KIND_WARP] = warp_close,
+    [KIND_SLOPE] = slope_close,
     [KIND_MESH] = mesh_close,
     [KIND_MESH2] = mesh_close,
     [KIND_HEIGHT_FIELD] = height_field_close,
@@ -417,7 +423,7 @@ static void refuse_value(Block *block, const AstNode *item)
 static bool takes_braces(const SchemaProperty *property)
 {
     return property->type == TYPE_BLOCK || property->action == ACTION_TRANSFORM ||
-           property->action == ACTION_REFLECTION;
+           property->action == ACTION_REFLECTION || property->action == ACTION_SLOPE;
 }
 
 static bool may_stand_here(Block *block, const SchemaProperty *property, const AstNode *item)
@@ -505,6 +511,7 @@ static void read_properties(Block *block)
 bool block_read_items(Block *block, SchemaKind *is)
 {
     SchemaKind kind = block->kind;
+    surface_read_first(block);
     read_name(block);
     read_arguments(block);
     if (bodies[kind] && !block->has_name && !bodies[kind](block)) {

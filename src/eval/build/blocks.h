@@ -17,8 +17,10 @@ struct ObjectState {
     const TextureDesc *defaults;                // of #default
     const SkySphereDesc *sky; // the last one so far, in the program's memory; NULL: none
     Span sky_span;
+    const NormalDesc *camera_normal; // of the last camera so far, likewise
     uint32_t groups;       // unions so far that say what their members are filled with
     bool may_lack_weights; // the map that is read belongs to `average`
+    bool uses_uv;          // something so far lies on surfaces
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring;
     const UnsupportedDesc *deferred; // the first; NULL: none
@@ -37,6 +39,7 @@ typedef struct Block {
     size_t arguments;  // that were given
     size_t items;      // properties so far
     bool has_name;     // it began with an identifier
+    bool on_surface;   // `uv_mapping` was said: at the start of a texture or part of one, before an object's texture
     bool is_plain, is_patterned; // a texture that begins with a part or a transform, or with a word of a pattern
     bool has_unsupported;
     bool is_lost; // with what it lacks it is nothing
@@ -47,6 +50,21 @@ typedef struct Block {
 
 // The interface of this room to the text.
 extern const EvalBuilder builder_of_scene;
+// surface.c
+
+// `uv_mapping` at the start of a texture, pigment or normal.
+void surface_read_first(Block *block);
+bool surface_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// At the closing brace of what has this pattern: with `uv_mapping` it stays as it is now.
+bool surface_close(Block *block, PatternPart *part) RT_MUST_CHECK;
+bool surface_hold(Eval *ev, Arena *arena, PatternPart *part, Span span) RT_MUST_CHECK;
+// Whether what came since then turns the bumps of what is on the surface, and how.
+bool surface_moves(const PatternPart *part, const Transform *outer, Transform *later);
+// Whether something of a texture is on the surface.
+bool texture_asks_uv(const TextureDesc *texture);
+// Puts all that a texture has onto the surface, with the layers below it if that is said.
+bool texture_put_on_surface(Eval *ev, Arena *arena, TextureDesc *texture, bool with_below, Span span) RT_MUST_CHECK;
+
 // Whether a word of the language begins a block, supported or not.
 bool object_takes_braces(const Eval *ev, Symbol word);
 // Evaluates `word { items }` to a record in the program arena (block.c and the files of the kinds).
@@ -69,6 +87,8 @@ void objects_fini(Eval *ev);
 Transform world_transform(const Eval *ev);
 Transform world_inverse(const Eval *ev);
 double world_scale(const Eval *ev);
+// Tells the scene of it.
+void world_note(Eval *ev);
 
 // block.c
 
@@ -171,8 +191,17 @@ bool block_begins_like_colour(Block *block, const AstNode *item);
 bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // Whether a pattern or a map may follow what there is: a texture that begins with an identifier takes no other.
 bool pattern_may_follow(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// A pattern begins, with its words as they are before they are said; false: it cannot stand in this block.
+bool pattern_begin(Block *block, PatternType type, const AstNode *item) RT_MUST_CHECK;
+// The depth that may follow the pattern of a normal, unless normals do.
+bool pattern_read_amount(Block *block) RT_MUST_CHECK;
 // A function and what it gives at a point.
 bool pattern_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+
+// pattern_slope.c
+bool slope_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool slope_item_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool slope_close(Block *block) RT_MUST_CHECK;
 
 // pattern_map.c
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -200,6 +229,8 @@ bool formula_make(Eval *ev, Scene *scene, const Function *function, SchemaKind k
 // A scene's record of a pigment that is moved by `outer`.
 bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Transform *outer, Span span,
                    Pigment *out) RT_MUST_CHECK;
+// A scene's record of bumps that are no texture's, in a space of their own.
+bool normal_place(Eval *ev, Scene *scene, const NormalDesc *normal, Span span, uint32_t *index) RT_MUST_CHECK;
 // True when nothing below a texture can be seen: it is of one colour that lets no light through.
 bool texture_hides_all(const TextureDesc *texture);
 // The scene's record of a texture that is moved by `outer`, and of what is inside (NULL: nothing was said).
@@ -232,6 +263,9 @@ bool camera_blur_action(Block *block, const SchemaProperty *property, const AstN
 bool camera_look_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 void camera_transform(Block *block, const Transform *transform);
 bool camera_close(Block *block) RT_MUST_CHECK;
+bool camera_normal_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// The bumps of the last camera, once the scene has all else.
+bool camera_finish(Eval *ev) RT_MUST_CHECK;
 bool camera_place(Eval *ev, const CameraDesc *camera, Span span) RT_MUST_CHECK;
 
 // light.c
@@ -407,6 +441,12 @@ const char *superellipsoid_form(const void *object, Part *part) RT_MUST_CHECK; /
 bool superellipsoid_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool superellipsoid_box(const void *object, OwnBox *own);
 
+// sweep.c: sphere sweeps
+bool sweep_body(Block *block) RT_MUST_CHECK;
+const char *sweep_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+bool sweep_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
+bool sweep_box(const void *object, OwnBox *own);
+
 // text.c: letters, as a union of prisms
 bool text_body(Block *block) RT_MUST_CHECK;
 
@@ -421,7 +461,8 @@ void texture_take_part(TextureDesc *texture, SchemaKind kind, const void *part);
 typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
 // A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. Nothing is
 // reported: SHAPE_NOTHING: *why_nothing says why it has no extent; SHAPE_FAULT: the transform leaves nothing of it.
-// `is_stretched`: it is a sphere that sphere_image_radius has found to be none after its transforms.
+// `is_stretched`: it is a sphere that sphere_image_radius has found to be none after its transforms, or one whose turn
+// is kept.
 ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *transform, bool is_stretched, Part *part,
                        const char **why_nothing) RT_MUST_CHECK;
 // The same with a report of either, a warning or a fault.

@@ -6,6 +6,7 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <string.h>
 
 #include "eval/build/blocks.h"
 
@@ -174,6 +175,24 @@ bool camera_blur_action(Block *block, const SchemaProperty *property, const AstN
     return !has_more || block_value(block, &values[1], item->span);
 }
 
+// Bumps begin as if nothing had been said of them.
+bool camera_normal_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    Eval *ev = block->ev;
+    Desc record;
+    SchemaKind is;
+    (void)property;
+    memcpy(&record, schema_kind(KIND_NORMAL)->defaults, schema_kind(KIND_NORMAL)->size);
+    if (!block_read(ev, item, KIND_NORMAL, &ev->program, &record, &is)) {
+        return false;
+    }
+    if (normal_lacks_pattern(&record.normal)) {
+        return block_fault(block, DIAG_E0253, item->span, "a normal needs a pattern");
+    }
+    block->record->camera.normal = arena_copy(&ev->program, &record.normal, sizeof record.normal);
+    return block->record->camera.normal || eval_no_memory(ev, item->span);
+}
+
 // The size of an orthographic picture is that of a perspective one at the distance of look_at, unless right or up say
 // it.
 static void set_orthographic_size(CameraDesc *camera, Vec3 location, double direction_length)
@@ -219,13 +238,24 @@ static bool lens_fits(Block *block)
            block_fault(block, DIAG_E0341, block->node->span, "`focal_point` must be away from the camera's location");
 }
 
+// POV-Ray's other cameras with bumps see the points of a picture in other places.
+static bool normal_fits(Block *block)
+{
+    const CameraDesc *camera = &block->record->camera;
+    if (!camera->normal || (camera_type(camera) <= CAMERA_ORTHOGRAPHIC && camera->aperture == 0.0)) {
+        return true;
+    }
+    return block_fault(block, DIAG_E0341, block->node->span,
+                       "only a perspective or orthographic camera without `aperture` has a `normal`");
+}
+
 bool camera_close(Block *block)
 {
     CameraDesc *camera = &block->record->camera;
     if (camera->types[CAMERA_SPHERICAL] && is_in_order(block)) {
         return block_fault(block, DIAG_E0341, block->node->span, "a `spherical` camera needs `#version 3.5` or later");
     }
-    if (!block->has_name && !(resolve(block) && lens_fits(block))) {
+    if (!block->has_name && !(resolve(block) && lens_fits(block) && normal_fits(block))) {
         return false;
     }
     move(camera, &camera->transform);
@@ -270,5 +300,21 @@ bool camera_place(Eval *ev, const CameraDesc *camera, Span span)
         .blur_variance = has_lens ? camera->variance : 0.0,
         .span = span,
     };
+    ev->objects->camera_normal = camera->normal;
+    return true;
+}
+
+bool camera_finish(Eval *ev)
+{
+    const NormalDesc *normal = ev->objects->camera_normal;
+    Camera *camera = &ev->scene->camera;
+    bool has_bumps = normal && normal->part.pattern.type != PATTERN_NONE && (normal->amount != 0.0 || normal->part.map);
+    if (!has_bumps || ev->stop) {
+        return true;
+    }
+    if (!normal_place(ev, ev->scene, normal, camera->span, &camera->bumps)) {
+        return false;
+    }
+    camera->bumps++;
     return true;
 }

@@ -275,7 +275,7 @@ bool isosurface_place(Eval *ev, const void *object, Part *part)
 {
     const IsosurfaceDesc *desc = object;
     Span span = desc->part.span;
-    ev->scene->text_unit = world_scale(ev);
+    world_note(ev);
     if (!desc->host) {
         return true;
     }

@@ -15,6 +15,7 @@ typedef struct Builder {
     Scene *scene;
     Span span; // of the object that needs the texture
     SharedMaps *shared;
+    bool has_surface; // there is one whose coordinates may be asked for
 } Builder;
 
 static bool add_texture(const Builder *builder, const TextureDesc *texture, const Transform *outer, uint32_t *index,
@@ -22,11 +23,21 @@ static bool add_texture(const Builder *builder, const TextureDesc *texture, cons
 static bool add_pigment(const Builder *builder, const PigmentDesc *pigment, const Transform *outer, Pigment *out,
                         uint64_t *patterns);
 
+static bool may_ask_uv(const Builder *builder, const PatternPart *part)
+{
+    return !part->on_surface || builder->has_surface ||
+           eval_fault(builder->ev, DIAG_E0251, builder->span,
+                      "`uv_mapping` of a pigment that lies on no surface is not supported by rtlang");
+}
+
 // A pattern must be found back from the world.
-static bool place_pattern(const Builder *builder, const Transform *own, const Transform *outer, Transform *whole)
+static bool place_pattern(const Builder *builder, const PatternPart *part, const Transform *outer, Transform *whole)
 {
     Transform back;
-    *whole = transform_compose(*own, *outer);
+    if (!may_ask_uv(builder, part)) {
+        return false;
+    }
+    *whole = part->on_surface ? *part->on_surface : transform_compose(part->transform, *outer);
     for (int row = 0; row < 4; row++) {
         for (int column = 0; column < 3; column++) {
             whole->m[row][column] += 0.0; // -0 becomes 0, so that what is written and read again is the same
@@ -145,7 +156,9 @@ static bool place_source(const Builder *builder, const PatternPart *part, Patter
     if (pattern->type != PATTERN_PIGMENT) {
         return true;
     }
-    if (!add_pigment(builder, part->pigment, &identity, &pigment, patterns)) {
+    Builder apart = *builder;
+    apart.has_surface = false; // what a pattern is made of is not told where it lies
+    if (!add_pigment(&apart, part->pigment, &identity, &pigment, patterns)) {
         return false;
     }
     return pigment_as_pattern(builder, &pigment, &pattern->image);
@@ -160,7 +173,7 @@ static bool add_patterned(const Builder *builder, const PigmentDesc *pigment, co
     bool is_picture = part->pattern.type == PATTERN_IMAGE_MAP;
     uint64_t of_source;
     PatternedPigment record = {.pattern = part->pattern, .entries = RECORD_NONE};
-    if (!place_pattern(builder, &part->transform, outer, &record.to_world) ||
+    if (!place_pattern(builder, part, outer, &record.to_world) ||
         !place_source(builder, part, &record.pattern, &of_source) ||
         (is_picture && !image_place(builder->ev, builder->scene, part->image, &record.pattern.image)) ||
         (!is_picture && !(has_pigments(map) ? add_map(builder, map, add_new_pigment_entries, &made)
@@ -229,6 +242,25 @@ static bool add_new_normal_entries(const Builder *builder, const PatternMap *map
     return true;
 }
 
+// Bumps that lie on a surface and are turned in space: the only entry of an average that is.
+static bool turn_normal(const Builder *builder, const Transform *to_world, uint32_t flags, uint32_t *index)
+{
+    const NormalDesc *plain = schema_kind(KIND_NORMAL)->defaults;
+    NormalEntry entry = {.at = 1.0, .normal = *index, .next = RECORD_NONE};
+    Normal record = {
+        .to_world = *to_world,
+        .pattern = plain->part.pattern,
+        .amount = number_single(plain->amount),
+        .accuracy = number_single(plain->accuracy),
+        .slopes = RECORD_NONE,
+        .flags = flags,
+    };
+    record.pattern.type = PATTERN_AVERAGE;
+    return (scene_add_normal_entry(builder->scene, &entry, &record.entries) &&
+            scene_add_normal(builder->scene, &record, index)) ||
+           no_memory(builder);
+}
+
 static bool add_one_normal(const Builder *builder, const NormalDesc *normal, const Transform *outer, bool keeps_length,
                            uint32_t *index, uint64_t *patterns)
 {
@@ -243,7 +275,7 @@ static bool add_one_normal(const Builder *builder, const NormalDesc *normal, con
         .flags = keeps_length || normal->keeps_length ? NORMAL_KEEPS_LENGTH : 0,
     };
     uint64_t of_source;
-    if (!place_pattern(builder, &normal->part.transform, outer, &record.to_world) ||
+    if (!place_pattern(builder, &normal->part, outer, &record.to_world) ||
         !place_source(builder, &normal->part, &record.pattern, &of_source) ||
         (normal->part.map && !add_map(builder, normal->part.map, add_new_normal_entries, &made)) ||
         (normal->slopes && !normal->part.map && !pattern_info((PatternType)record.pattern.type)->blocks &&
@@ -252,7 +284,9 @@ static bool add_one_normal(const Builder *builder, const NormalDesc *normal, con
     }
     record.entries = made.first;
     *patterns = cost_at_point(&record.pattern, &made).patterns + of_source;
-    return scene_add_normal(builder->scene, &record, index) || no_memory(builder);
+    return (scene_add_normal(builder->scene, &record, index) || no_memory(builder)) &&
+           (!surface_moves(&normal->part, outer, &record.to_world) ||
+            turn_normal(builder, &record.to_world, record.flags, index));
 }
 
 static bool add_normal(const Builder *builder, const NormalDesc *normal, const Transform *outer, bool keeps_length,
@@ -341,7 +375,7 @@ static bool add_texture_pattern(const Builder *builder, const TextureDesc *textu
 {
     SharedMap made;
     uint64_t of_source;
-    if (!place_pattern(builder, &texture->part.transform, outer, &record->to_world) ||
+    if (!place_pattern(builder, &texture->part, outer, &record->to_world) ||
         !place_source(builder, &texture->part, &record->pattern, &of_source) ||
         !add_map(builder, texture->part.map, add_new_texture_entries, &made)) {
         return false;
@@ -369,6 +403,25 @@ static bool add_layers(const Builder *builder, const TextureDesc *texture, const
     return true;
 }
 
+// Likewise a pattern of textures.
+static bool turn_texture(const Builder *builder, const Transform *to_world, const Finish *finish, uint32_t *index)
+{
+    const TextureDesc *plain = schema_kind(KIND_TEXTURE)->defaults;
+    TextureEntry entry = {.at = 1.0, .texture = *index, .next = RECORD_NONE};
+    Texture record = {
+        .pigment = pigment_of((Rgbft){0.0, 0.0, 0.0, 0.0, 0.0}),
+        .below = RECORD_NONE,
+        .to_world = *to_world,
+        .pattern = plain->part.pattern,
+        .normal = RECORD_NONE,
+    };
+    record.pattern.type = PATTERN_AVERAGE;
+    return (scene_add_finish(builder->scene, finish, &record.finish) &&
+            scene_add_texture_entry(builder->scene, &entry, &record.entries) &&
+            scene_add_texture(builder->scene, &record, index)) ||
+           no_memory(builder);
+}
+
 static bool add_one_texture(const Builder *builder, const TextureDesc *texture, const Transform *outer, uint32_t *index,
                             MapCost *cost)
 {
@@ -388,7 +441,9 @@ static bool add_one_texture(const Builder *builder, const TextureDesc *texture, 
                                                      : add_layers(builder, texture, &moved, &record, cost))) {
         return false;
     }
-    return scene_add_texture(builder->scene, &record, index) || no_memory(builder);
+    return (scene_add_texture(builder->scene, &record, index) || no_memory(builder)) &&
+           (!surface_moves(&texture->part, outer, &record.to_world) ||
+            turn_texture(builder, &record.to_world, &texture->finish, index));
 }
 
 static bool add_texture(const Builder *builder, const TextureDesc *texture, const Transform *outer, uint32_t *index,
@@ -430,9 +485,20 @@ static bool patterns_fit(const Builder *builder, uint64_t patterns)
 bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Transform *outer, Span span, Pigment *out)
 {
     SharedMaps shared = {0};
-    Builder builder = {ev, scene, span, &shared};
+    Builder builder = {ev, scene, span, &shared, false};
     uint64_t patterns;
     bool is_added = add_pigment(&builder, pigment, outer, out, &patterns);
+    shared_maps_fini(&shared);
+    return is_added && patterns_fit(&builder, patterns);
+}
+
+bool normal_place(Eval *ev, Scene *scene, const NormalDesc *normal, Span span, uint32_t *index)
+{
+    SharedMaps shared = {0};
+    Builder builder = {ev, scene, span, &shared, false};
+    Transform identity = transform_identity();
+    uint64_t patterns;
+    bool is_added = add_normal(&builder, normal, &identity, false, index, &patterns);
     shared_maps_fini(&shared);
     return is_added && patterns_fit(&builder, patterns);
 }
@@ -441,9 +507,12 @@ bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer
                     bool is_hollow, Span span, MaterialIndex *index)
 {
     SharedMaps shared = {0};
-    Builder builder = {ev, ev->scene, span, &shared};
+    Builder builder = {ev, ev->scene, span, &shared, true};
     Compound compound = {.is_hollow = is_hollow};
     MapCost cost;
+    if (texture_asks_uv(texture)) {
+        world_note(ev);
+    }
     if (!add_interior(&builder, texture, interior, &compound.interior)) {
         return false;
     }

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "eval/build/mesh_reader.h"
 
@@ -83,8 +84,68 @@ static bool read_triangle_texture(MeshReader *reader, const AstNode *item, uint3
     return is_fine;
 }
 
+// Surface coordinates of the corners.
+typedef struct TriangleUv {
+    double corners[3][2];
+    bool is_given;
+} TriangleUv;
+
+static bool read_uv(MeshReader *reader, Cursor *cursor, Span word, TriangleUv *uv)
+{
+    uv->is_given = true;
+    for (int i = 0; i < 3; i++) {
+        float narrowed[2];
+        cursor_take_comma(cursor);
+        const AstNode *item = cursor_peek(cursor);
+        if (!item || !cursor_at_value(cursor)) {
+            return block_fault(reader->block, DIAG_E0253, item ? item->span : word,
+                               "`uv_vectors` needs three vectors of 2 after it");
+        }
+        if (!mesh_read_uv(cursor, item->span, uv->corners[i])) {
+            return false;
+        }
+        if (!mesh_narrow_uv(uv->corners[i], narrowed)) {
+            return block_fault(reader->block, DIAG_E0472, item->span, MESH_NOT_NARROW);
+        }
+    }
+    return true;
+}
+
+// Of a triangle that gives none they are 0; a mesh in which none does has no list of them.
+static bool add_uv(MeshReader *reader, const TriangleUv *uv)
+{
+    if (!uv->is_given && reader->uvs.count == 0) {
+        return true;
+    }
+    // The first one is 0, for the triangles so far that gave none.
+    while (reader->uvs.count == 0 || reader->face_uvs.count < reader->faces.count) {
+        if (!mesh_reader_has_room(reader, &reader->uvs, 0) || !mesh_reader_has_room(reader, &reader->face_uvs, 0)) {
+            return false;
+        }
+        if (reader->uvs.count == 0) {
+            memset(reader->uvs.items, 0, 2 * sizeof(float));
+            reader->uvs.count = 1;
+        } else {
+            memset(((uint32_t(*)[3])reader->face_uvs.items)[reader->face_uvs.count++], 0, 3 * sizeof(uint32_t));
+        }
+    }
+    uint32_t indices[3] = {0, 0, 0};
+    for (int i = 0; uv->is_given && i < 3; i++) {
+        if (!mesh_reader_has_room(reader, &reader->uvs, 0)) {
+            return false;
+        }
+        indices[i] = (uint32_t)reader->uvs.count;
+        (void)mesh_narrow_uv(uv->corners[i], ((float(*)[2])reader->uvs.items)[reader->uvs.count++]);
+    }
+    if (!mesh_reader_has_room(reader, &reader->face_uvs, 0)) {
+        return false;
+    }
+    memcpy(((uint32_t(*)[3])reader->face_uvs.items)[reader->face_uvs.count++], indices, sizeof indices);
+    return true;
+}
+
 // What may stand behind the corners: a texture, and uv_vectors.
-static bool read_triangle_end(MeshReader *reader, Cursor *cursor, uint32_t *texture)
+static bool read_triangle_end(MeshReader *reader, Cursor *cursor, uint32_t *texture, TriangleUv *uv)
 {
     const AstNode *item;
     while ((item = cursor_peek(cursor))) {
@@ -101,12 +162,8 @@ static bool read_triangle_end(MeshReader *reader, Cursor *cursor, uint32_t *text
         if (is_texture && !read_triangle_texture(reader, item, texture)) {
             return false;
         }
-        for (int i = 0; is_uv && i < 3; i++) {
-            Value value;
-            cursor_take_comma(cursor);
-            if (!cursor_value(cursor, &value)) {
-                return false;
-            }
+        if (is_uv && !read_uv(reader, cursor, item->span, uv)) {
+            return false;
         }
     }
     return true;
@@ -121,7 +178,7 @@ static bool is_degenerate(const double c[3][3])
 }
 
 static bool add_triangle(MeshReader *reader, const AstNode *item, double corners[3][3], double normals[3][3],
-                         bool is_smooth, uint32_t texture)
+                         bool is_smooth, uint32_t texture, const TriangleUv *uv)
 {
     if (is_degenerate((const double(*)[3])corners)) {
         eval_warn(reader->block->ev, DIAG_W0348, item->span, "a triangle with its corners on one line is not drawn");
@@ -144,6 +201,9 @@ static bool add_triangle(MeshReader *reader, const AstNode *item, double corners
             return false;
         }
     }
+    if (!add_uv(reader, uv)) {
+        return false;
+    }
     ((uint32_t *)reader->face_textures.items)[reader->faces.count] = texture;
     reader->face_textures.count = reader->face_normals.count = ++reader->faces.count;
     return true;
@@ -154,6 +214,7 @@ static bool read_triangle(MeshReader *reader, const AstNode *item)
     Cursor cursor;
     double corners[3][3], normals[3][3];
     uint32_t texture = 0;
+    TriangleUv uv = {.is_given = false};
     bool is_smooth = item->symbol == (Symbol)W_smooth_triangle, is_fine = true;
     cursor_open(&cursor, reader->block->ev, item->a, item->span);
     for (int i = 0; is_fine && i < (is_smooth ? 6 : 3); i++) {
@@ -168,9 +229,9 @@ static bool read_triangle(MeshReader *reader, const AstNode *item)
             into[2] = vector.z;
         }
     }
-    is_fine = is_fine && read_triangle_end(reader, &cursor, &texture);
+    is_fine = is_fine && read_triangle_end(reader, &cursor, &texture, &uv);
     cursor_close(&cursor);
-    return is_fine && add_triangle(reader, item, corners, normals, is_smooth, texture);
+    return is_fine && add_triangle(reader, item, corners, normals, is_smooth, texture, &uv);
 }
 
 bool mesh_body(Block *block)

@@ -47,9 +47,12 @@ static bool read_uvs(MeshReader *reader, const AstNode *node)
     bool is_fine = mesh_list_open(&list, reader->block, node);
     for (uint32_t i = 0; is_fine && i < list.wanted; i++) {
         double v[3];
-        is_fine = mesh_list_next(&list, i, 2, v);
+        is_fine = mesh_list_next(&list, i, 2, v) && mesh_reader_has_room(reader, &reader->uvs, list.wanted);
+        if (is_fine && !mesh_narrow_uv(v, ((float(*)[2])reader->uvs.items)[reader->uvs.count])) {
+            is_fine = eval_fault(list.ev, DIAG_E0472, mesh_list_span(&list), MESH_NOT_NARROW);
+        }
+        reader->uvs.count += is_fine;
     }
-    reader->uv_count = is_fine ? list.wanted : 0;
     return mesh_list_close(&list, is_fine);
 }
 
@@ -150,10 +153,16 @@ static bool read_uv_indices(MeshReader *reader, const AstNode *node)
 {
     MeshList list;
     bool is_fine = mesh_list_open(&list, reader->block, node);
+    if (is_fine && list.wanted != reader->faces.count) {
+        is_fine = eval_fault(reader->block->ev, DIAG_E0470, list.span,
+                             "`uv_indices` is of %u faces, and there are %zu", list.wanted, reader->faces.count);
+    }
     for (uint32_t i = 0; is_fine && i < list.wanted; i++) {
         double v[3];
-        uint32_t indices[3];
-        is_fine = mesh_list_next(&list, i, 3, v) && to_indices(&list, v, reader->uv_count, "uv vectors", indices);
+        is_fine = mesh_list_next(&list, i, 3, v) && mesh_reader_has_room(reader, &reader->face_uvs, list.wanted) &&
+                  to_indices(&list, v, reader->uvs.count, "uv vectors",
+                             ((uint32_t(*)[3])reader->face_uvs.items)[reader->face_uvs.count]);
+        reader->face_uvs.count += is_fine;
     }
     return mesh_list_close(&list, is_fine);
 }

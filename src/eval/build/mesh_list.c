@@ -78,7 +78,11 @@ bool mesh_list_next_item(MeshList *list, uint32_t number, unsigned least, double
         bool is_vector = value.kind == VALUE_VECTOR && value.components >= 2;
         v[0] = is_vector ? value.v[0] : 0.0;
         v[1] = is_vector ? value.v[1] : 0.0;
-        return is_vector || value_number(list->ev, &value, list->span, &v[0]);
+        if (!is_vector && !value_number(list->ev, &value, list->span, &v[0])) {
+            return false;
+        }
+        v[1] = is_vector ? v[1] : v[0];
+        return true;
     }
     if (!cursor_vector3(&list->cursor, &vector, &list->span)) {
         return false;

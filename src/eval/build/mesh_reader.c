@@ -70,6 +70,28 @@ void mesh_normalise(Eval *ev, double v[3], Span span)
     }
 }
 
+// ---- surface coordinates
+
+bool mesh_read_uv(Cursor *cursor, Span span, double v[2])
+{
+    Value value;
+    if (!cursor_value(cursor, &value)) {
+        return false;
+    }
+    if (value.kind == VALUE_VECTOR && value.components == 2) {
+        v[0] = value.v[0];
+        v[1] = value.v[1];
+        return true;
+    }
+    if (value.kind == VALUE_VECTOR) {
+        return eval_fault(cursor->ev, DIAG_E0254, span, "surface coordinates are vectors of 2, not %s",
+                          value_describe(&value));
+    }
+    bool is_number = value_number(cursor->ev, &value, span, &v[0]);
+    v[1] = v[0];
+    return is_number;
+}
+
 // ---- textures
 
 bool mesh_reader_texture_of(MeshReader *reader, const Value *value, Span span, const TextureDesc **texture)
@@ -190,6 +212,20 @@ static bool settle_normals(MeshReader *reader)
     return true;
 }
 
+// Likewise surface coordinates.
+static bool settle_uvs(MeshReader *reader)
+{
+    Block *block = reader->block;
+    Mesh *mesh = reader->mesh;
+    if (mesh->uv_count == 0 || mesh->face_uvs) {
+        return true;
+    }
+    mesh->face_uvs = mesh->faces;
+    return reader->uvs.count == reader->vertices.count ||
+           block_fault(block, DIAG_E0474, block->node->span, "%zu uv vectors of %zu vertices need `uv_indices`",
+                       reader->uvs.count, reader->vertices.count);
+}
+
 // After a fault nothing is said of the lists and triangles that are left.
 static bool pass_over(Block *block)
 {
@@ -265,12 +301,15 @@ bool mesh_reader_finish(MeshReader *reader, bool is_fine)
     mesh->normals = trim(&reader->normals);
     mesh->faces = trim(&reader->faces);
     mesh->face_textures = trim(&reader->face_textures);
+    mesh->uvs = trim(&reader->uvs);
+    mesh->face_uvs = trim(&reader->face_uvs);
+    mesh->uv_count = (uint32_t)reader->uvs.count;
     mesh->vertex_count = (uint32_t)reader->vertices.count;
     mesh->normal_count = (uint32_t)reader->normals.count;
     mesh->face_count = (uint32_t)reader->faces.count;
     mesh->source = block->node->span.begin;
     mesh->face_normals = reader->face_normals.items;
-    is_fine = is_fine && settle_normals(reader);
+    is_fine = is_fine && settle_normals(reader) && settle_uvs(reader);
     MeshDesc *desc = &block->record->mesh;
     is_fine = is_fine && (!mesh->face_textures || settle_textures(reader, desc));
     if (is_fine) {
@@ -292,7 +331,8 @@ bool mesh_reader_begin(MeshReader *reader, Block *block)
 {
     *reader = (MeshReader){.block = block, .mesh = mesh_new()};
     reader->vertices.size = reader->normals.size = 3 * sizeof(float);
-    reader->faces.size = reader->face_normals.size = 3 * sizeof(uint32_t);
+    reader->uvs.size = 2 * sizeof(float);
+    reader->faces.size = reader->face_normals.size = reader->face_uvs.size = 3 * sizeof(uint32_t);
     reader->face_textures.size = sizeof(uint32_t);
     return reader->mesh || eval_no_memory(block->ev, block->node->span);
 }

@@ -20,7 +20,7 @@ typedef struct MeshReader {
     Block *block;
     Mesh *mesh;
     MeshArray vertices, normals, faces, face_normals, face_textures; // as in Mesh
-    uint32_t uv_count;
+    MeshArray uvs, face_uvs; // likewise
     const TextureDesc **textures; // in the order in which they are declared; faces count them from 1 while reading
     uint32_t texture_count, texture_room;
     MeshCorners *corners; // faces with several textures
@@ -74,6 +74,15 @@ static inline bool mesh_narrow(const double v[3], float narrowed[3])
     }
     float nothing = narrowed[0] * 0.0F + narrowed[1] * 0.0F + narrowed[2] * 0.0F;
     return RT_LIKELY(nothing == 0.0F);
+}
+// Reads <u, v>, or one number that stands for both.
+bool mesh_read_uv(Cursor *cursor, Span span, double v[2]) RT_MUST_CHECK;
+
+static inline bool mesh_narrow_uv(const double v[2], float narrowed[2])
+{
+    narrowed[0] = (float)v[0];
+    narrowed[1] = (float)v[1];
+    return narrowed[0] * 0.0F + narrowed[1] * 0.0F == 0.0F;
 }
 #define MESH_NOT_NARROW "a coordinate of a mesh must be finite and within single precision, about 3.4e38"
 

@@ -30,6 +30,7 @@ static bool is_of_pattern(const SchemaProperty *property)
 {
     switch (property->action) {
     case ACTION_PATTERN:
+    case ACTION_SLOPE:
     case ACTION_FUNCTION:
     case ACTION_TILES:
     case ACTION_WARP:
@@ -57,6 +58,7 @@ static bool fits_texture(Block *block, const SchemaProperty *property, const Ast
                            property->word);
     }
     bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_FUNCTION ||
+                       property->action == ACTION_SLOPE ||
                        property->action == ACTION_TILES || property->action == ACTION_MAP; // of its own
     return !is_word || !block->is_plain || has_message ||
            block_fault(block, DIAG_E0256, item->span, "`%s` can stand only in a texture that begins with a pattern",
@@ -108,12 +110,11 @@ bool pattern_solid_action(Block *block, const SchemaProperty *property, const As
 {
     (void)property;
     (void)item;
-    block->record->patterned.pattern.is_solid = 1;
+    block->record->patterned.pattern.flags |= PATTERN_SOLID;
     return true;
 }
 
-// The depth that may follow the pattern of a normal, unless normals do.
-static bool read_amount(Block *block)
+bool pattern_read_amount(Block *block)
 {
     static const SchemaProperty amount = {"normal", TYPE_NUMBER, ACTION_NONE, .at = offsetof(NormalDesc, amount)};
     const AstNode *item = cursor_peek(&block->cursor);
@@ -145,7 +146,7 @@ static void begin_pattern(Pattern *pattern, PatternType type)
         pattern->form = vec3(-1.0, 1.0, 0.0);
         pattern->metric = 2.0;
         pattern->offset = 0.0;
-        pattern->is_solid = 0;
+        pattern->flags &= ~(uint32_t)PATTERN_SOLID;
     }
     if (type == PATTERN_AGATE) {
         pattern->agate_turb = 1.0;
@@ -156,6 +157,20 @@ static void begin_pattern(Pattern *pattern, PatternType type)
     pattern->exterior = is_fractal;
     pattern->interior = 0;
     pattern->exterior_factor = pattern->interior_factor = is_fractal ? 1.0 : 0.0;
+}
+
+bool pattern_begin(Block *block, PatternType type, const AstNode *item)
+{
+    Pattern *pattern = &block->record->patterned.pattern;
+    const PatternInfo *info = pattern_info(type);
+    if (info->is_of_surface && block->kind == KIND_PATTERN) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand in a function, which has no surface",
+                           info->word);
+    }
+    begin_pattern(pattern, type);
+    pattern->type = type;
+    pattern->wave = info->wave != WAVE_RAMP ? info->wave : pattern->wave;
+    return true;
 }
 
 // The braces of `pigment_pattern`, which hold what those of a pigment do.
@@ -197,9 +212,9 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     if (block->kind == KIND_NORMAL && info->blocks != 0) {
         block->record->patterned.map = NULL;
     }
-    begin_pattern(pattern, type);
-    pattern->type = type;
-    pattern->wave = info->wave != WAVE_RAMP ? info->wave : pattern->wave;
+    if (!pattern_begin(block, type, item)) {
+        return false;
+    }
     if (info->blocks) {
         pattern->frequency = 0.0; // the numbers of blocks stay as they are
     }
@@ -217,7 +232,7 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     }
     bool has_entries = info->blocks != 0 && block->kind != KIND_PATTERN;
     return (type != PATTERN_PIGMENT || read_pigment_pattern(block, item)) &&
-           (!has_entries || pattern_read_blocks(block, type, item->span)) && read_amount(block);
+           (!has_entries || pattern_read_blocks(block, type, item->span)) && pattern_read_amount(block);
 }
 
 // `exterior` and `interior`: what is told of a point, and times what.
@@ -282,7 +297,7 @@ bool pattern_function_action(Block *block, const SchemaProperty *property, const
     begin_pattern(&part->pattern, PATTERN_FUNCTION);
     part->pattern.type = PATTERN_FUNCTION;
     part->function = value.function;
-    return read_amount(block);
+    return pattern_read_amount(block);
 }
 
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item)
@@ -348,7 +363,7 @@ bool normal_close(Block *block)
     if (part->pattern.type == PATTERN_QUILTED) {
         block->record->normal.slopes = NULL; // POV-Ray looks at the slopes of other patterns only
     }
-    return settle_values(block);
+    return settle_values(block) && surface_close(block, &block->record->patterned);
 }
 
 bool pattern_close(Block *block)
@@ -372,5 +387,11 @@ bool pattern_close(Block *block)
     if (block->kind == KIND_TEXTURE && part->pattern.type != PATTERN_NONE && !part->map) {
         return block_fault(block, DIAG_E0253, block->node->span, "a pattern of textures needs a `texture_map`");
     }
-    return true;
+    if (block->kind != KIND_TEXTURE) {
+        return surface_close(block, &block->record->patterned);
+    }
+    TextureDesc *texture = &block->record->texture;
+    return surface_close(block, &texture->part) &&
+           (!block->on_surface ||
+            texture_put_on_surface(block->ev, block->arena, texture, false, block->node->span));
 }

@@ -110,7 +110,8 @@ static bool place_sphere(Eval *ev, const SphereDesc *sphere, const Placement *in
     double image;
     Span span = sphere->part.span;
     MaterialIndex material;
-    *is_round = sphere_image_radius(fabs(sphere->radius), transform, &image);
+    // One with surface coordinates keeps its turn.
+    *is_round = !texture_asks_uv(inner->texture) && sphere_image_radius(fabs(sphere->radius), transform, &image);
     if (!*is_round || !place_may_add(ev, span) || !place_plain_material(ev, inner, 0, span, &material)) {
         return !*is_round;
     }
@@ -223,7 +224,8 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
         return is_placed;
     }
     Part shape;
-    bool is_stretched = may_be_round && !inner->clips; // it was found not to be round
+    bool is_stretched = may_be_round && !inner->clips; // it was found not to be round, or has a turn that is seen
+    is_stretched |= kind == KIND_SPHERE && texture_asks_uv(inner->texture);
     ShapeResult result = shape_make(ev, kind, object, &inner->outer, is_stretched, &shape);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING;
@@ -327,6 +329,13 @@ Transform world_inverse(const Eval *ev)
     }
     double scale = 1.0 / world->scale;
     return transform_compose(transform_translate(vec3_neg(world->shift)), transform_scale(vec3(scale, scale, scale)));
+}
+
+void world_note(Eval *ev)
+{
+    const EvalWorld *world = ev->options.world;
+    ev->scene->text_unit = world_scale(ev);
+    ev->scene->text_origin = world ? world->shift : vec3(0.0, 0.0, 0.0);
 }
 
 double world_scale(const Eval *ev)

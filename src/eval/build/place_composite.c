@@ -125,7 +125,8 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
         return eval_fault(ev, DIAG_E0362, common->span,
                           "a bicubic_patch has no inside, and POV-Ray does not clip it: nothing can be cut with it");
     }
-    ShapeResult result = shape_make(ev, kind, object, &around->outer, false, &part);
+    bool keeps_turn = !branch->is_unseen && kind == KIND_SPHERE && texture_asks_uv(around->texture);
+    ShapeResult result = shape_make(ev, kind, object, &around->outer, keeps_turn, &part);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING && grow_nothing(ev, kind, common, branch);
     }

@@ -42,7 +42,7 @@ bool sky_place(Eval *ev, const SkySphereDesc *sky, Span span)
     return objects->sky || eval_no_memory(ev, span);
 }
 
-bool objects_finish(Eval *ev)
+static bool sky_finish(Eval *ev)
 {
     const SkySphereDesc *sky = ev->objects->sky;
     Span span = ev->objects->sky_span;
@@ -61,6 +61,11 @@ bool objects_finish(Eval *ev)
         }
     }
     return true;
+}
+
+bool objects_finish(Eval *ev)
+{
+    return sky_finish(ev) && camera_finish(ev);
 }
 
 // ---- fog

@@ -46,6 +46,23 @@ static bool settle(Eval *ev, Arena *arena, TextureDesc *texture, Span span)
     return true;
 }
 
+bool texture_put_on_surface(Eval *ev, Arena *arena, TextureDesc *texture, bool with_below, Span span)
+{
+    for (TextureDesc *layer = texture; layer; layer = (TextureDesc *)layer->below) { // a copy that settle has made
+        if (!settle(ev, arena, layer, span) || !surface_hold(ev, arena, &layer->part, span) ||
+            !surface_hold(ev, arena, &layer->pigment.part, span) ||
+            !surface_hold(ev, arena, &layer->normal.part, span)) {
+            return false;
+        }
+        layer->part.turns |= !with_below;
+        layer->normal.part.turns |= !with_below;
+        if (!with_below || layer->part.pattern.type != PATTERN_NONE) {
+            return true;
+        }
+    }
+    return true;
+}
+
 static Rgbft without_filter(Rgbft colour)
 {
     colour.transmit += colour.filter;
@@ -244,8 +261,10 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
         return eval_no_memory(ev, item->span);
     }
     *place = texture;
-    return property->action == ACTION_TEXTURE ? read_texture(ev, item, block->arena, before, texture)
-                                              : read_part(ev, property->action, item, block->arena, texture);
+    bool is_read = property->action == ACTION_TEXTURE ? read_texture(ev, item, block->arena, before, texture)
+                                                      : read_part(ev, property->action, item, block->arena, texture);
+    return is_read &&
+           (!block->on_surface || texture_put_on_surface(ev, block->arena, texture, true, item->span));
 }
 
 // The layers of one kind of tile, up to `tile2` or the end.

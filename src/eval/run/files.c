@@ -420,6 +420,7 @@ static void note_folders(Eval *ev)
     for (size_t i = 0; (folder = file_folder(ev, i)) != NULL; i++) {
         text_printf(&list, ", `%s`", folder);
     }
+    ev->options.diags->out_of_memory |= list.failed;
     diag_note(ev->options.diags, SPAN_NONE, "%s", text_get(&list));
     text_fini(&list);
 }

@@ -9,6 +9,7 @@
 #include "render/records/camera.h"
 #include "render/sample/tiles.h"
 #include "render/shade/shade.h"
+#include "render/shade/surface_uv.h"
 
 typedef struct PlanesWork {
     const Prepared *prepared;
@@ -28,12 +29,15 @@ static Rgb add_albedo(void *client, const TextureLayer *layer)
     return rgb_grey(1.0);
 }
 
-static Rgb albedo_of(const Prepared *p, const Surface *surface)
+static Rgb albedo_of(const Prepared *p, const Surface *surface, ShapeId shape, Vec3 normal, Vec3 direction)
 {
     AlbedoSum sum = {p, rgb_grey(0.0)};
     if (surface->material & MATERIAL_COMPOUND) {
         uint32_t texture = p->compounds[surface->material & ~MATERIAL_COMPOUND].texture;
-        texture_walk(&p->textures, texture, surface->point, 0.0, add_albedo, &sum);
+        Vec3 room;
+        const Vec3 *uv = shade_uv(p, texture, shape, surface->point, &room);
+        TextureSight sight = {surface->point, uv, &normal, &direction, false};
+        texture_walk(&p->textures, texture, sight, 0.0, add_albedo, &sum);
     } else {
         TextureLayer layer = {.pigment = material_pigment(&p->materials[surface->material]),
                               .part = 1.0,
@@ -58,15 +62,15 @@ static void put_surface(const Prepared *p, const Film *film, size_t pixel, Ray r
     if (planes[FILM_DEPTH]) {
         ((float *)planes[FILM_DEPTH])[pixel] = (float)(hit.t * vec3_length(ray.direction) * p->textures.scale);
     }
+    Vec3 seen = hit.inside ? vec3_neg(surface.normal) : surface.normal;
     if (planes[FILM_NORMAL]) {
-        Vec3 seen = hit.inside ? vec3_neg(surface.normal) : surface.normal;
         put_three(planes[FILM_NORMAL], pixel, seen.x, seen.y, seen.z);
     }
     if (planes[FILM_OBJECT]) {
         ((uint32_t *)planes[FILM_OBJECT])[pixel] = surface.order + 1;
     }
     if (planes[FILM_ALBEDO]) {
-        Rgb albedo = albedo_of(p, &surface);
+        Rgb albedo = albedo_of(p, &surface, hit.shape, seen, ray.direction);
         put_three(planes[FILM_ALBEDO], pixel, albedo.red, albedo.green, albedo.blue);
     }
 }

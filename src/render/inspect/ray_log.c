@@ -7,6 +7,7 @@
 
 #include "render/records/camera.h"
 #include "render/sample/scratch.h"
+#include "render/shade/surface_uv.h"
 #include "scene/part.h"
 
 enum {
@@ -24,6 +25,7 @@ typedef struct Follower {
     double scale; // from prepared lengths to the scene's
     bool failed;
     const ShadingPoint *at; // while layers are collected
+    uint32_t layer;         // of them
 } Follower;
 
 static Vec3 in_scene(const Follower *follower, Vec3 a)
@@ -286,10 +288,11 @@ static Rgb follow_layer(void *client, const TextureLayer *layer)
     ShadingPoint at = *whole; // its normal may be another layer's
     at.normal = at.inside ? vec3_neg(at.outward) : at.outward;
     if (layer->normal != RECORD_NONE) {
-        at.normal = texture_normal(&p->textures, layer, at.normal);
+        at.normal = texture_normal(layer, at.normal);
     }
     follower->at = &at;
     ShadeMaterial material = shade_material(p, FEATURES, layer->pigment, layer->finish);
+    material.layer = follower->layer++;
     LoggedLayer out = {
         .pigment = layer->pigment,
         .part = layer->part,
@@ -315,12 +318,16 @@ static void follow_surface(Follower *follower, const ShadingPoint *at)
 {
     const Prepared *p = follower->p;
     follower->at = at;
+    follower->layer = 0;
     if (at->material & MATERIAL_COMPOUND) {
         uint32_t texture = p->compounds[at->material & ~MATERIAL_COMPOUND].texture;
-        texture_walk(&p->textures, texture, at->point, p->adc_bailout, follow_layer, follower);
+        Vec3 room;
+        const Vec3 *uv = shade_uv(p, texture, at->shape, at->point, &room);
+        TextureSight sight = {at->point, uv, &at->normal, &at->direction, false};
+        texture_walk(&p->textures, texture, sight, p->adc_bailout, follow_layer, follower);
     } else {
         const Material *plain = &p->materials[at->material];
-        TextureLayer layer = {material_pigment(plain), plain->finish, RECORD_NONE, true, NULL, 1.0, rgb_grey(1.0)};
+        TextureLayer layer = {material_pigment(plain), plain->finish, RECORD_NONE, true, NULL, 1.0, rgb_grey(1.0), NULL};
         (void)follow_layer(follower, &layer);
     }
 }
@@ -398,9 +405,10 @@ bool ray_log_trace(RayLog *ray_log, const Prepared *prepared, int width, int hei
     const Camera *camera = &prepared->scene->camera;
     ray_log->eye = in_scene(&follower, first.ray.origin);
     Vec3 across = vec3_sub(vec3_scale(u, camera->right), vec3_scale(v, camera->up));
-    Vec3 ahead = camera->type == CAMERA_PERSPECTIVE    ? vec3_add(camera->direction, across)
-                 : camera->type == CAMERA_ORTHOGRAPHIC ? camera->direction
-                                                       : first.ray.direction;
+    CameraType type = prepared->camera.type;
+    Vec3 ahead = type == CAMERA_PERSPECTIVE    ? vec3_add(camera->direction, across)
+                 : type == CAMERA_ORTHOGRAPHIC ? camera->direction
+                                               : first.ray.direction;
     ray_log->screen = vec3_add(ray_log->eye, ahead);
     RenderScratch *scratch = scratch_new();
     if (!scratch) {

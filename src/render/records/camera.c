@@ -80,14 +80,27 @@ static bool cylinder_lying(const PreparedCamera *camera, double u, double v, Vec
     return true;
 }
 
+// Bumps take the direction for a normal.
+static bool bumpy(const PreparedCamera *camera, double u, double v, Vec3 *direction)
+{
+    Vec3 plain = camera->direction;
+    if (camera->through == CAMERA_PERSPECTIVE) {
+        plain = vec3_add_scaled(vec3_add_scaled(plain, u, camera->right), v, camera->up);
+    }
+    *direction = texture_bent(camera->textures, camera->bumps, vec3(u, v, 0.0), vec3_normalize(plain));
+    return true;
+}
+
 typedef bool (*DirectionFunction)(const PreparedCamera *camera, double u, double v, Vec3 *direction);
 
 // Of a camera that moves.
 static Vec3 origin_of(const PreparedCamera *camera, double u, double v)
 {
-    return camera->type == CAMERA_CYLINDER_3   ? vec3_add_scaled(camera->location, -v, camera->up)
-           : camera->type == CAMERA_CYLINDER_4 ? vec3_add_scaled(camera->location, u, camera->right)
-                                               : camera->location;
+    Vec3 across = vec3_add_scaled(camera->location, u, camera->right);
+    return camera->through == CAMERA_CYLINDER_3     ? vec3_add_scaled(camera->location, -v, camera->up)
+           : camera->through == CAMERA_CYLINDER_4   ? across
+           : camera->through == CAMERA_ORTHOGRAPHIC ? vec3_add_scaled(across, -v, camera->up)
+                                                    : camera->location;
 }
 
 bool camera_wide_ray(const PreparedCamera *camera, double u, double v, Ray *ray)
@@ -104,6 +117,7 @@ bool camera_wide_ray(const PreparedCamera *camera, double u, double v, Ray *ray)
         [CAMERA_CYLINDER_2] = cylinder_lying,
         [CAMERA_CYLINDER_3] = cylinder_upright,
         [CAMERA_CYLINDER_4] = cylinder_lying,
+        [CAMERA_BUMPY] = bumpy,
     };
     bool is_seen = functions[camera->type](camera, u, -v, direction);
     double length = vec3_length(*direction);

@@ -18,7 +18,9 @@
 #include "trace/trace.h"
 
 typedef struct PreparedCamera {
-    CameraType type;
+    CameraType type, through; // they differ where bumps turn the rays of the second
+    const TextureTable *textures; // whose bumps these are
+    uint32_t bumps;
     Vec3 location, direction, right, up; // orthographic: direction is of unit length
     // Of wider ones: unit vectors along right, up and direction, the lengths of the first two, angles in radians.
     Vec3 across, upright, ahead;

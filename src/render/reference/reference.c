@@ -98,8 +98,10 @@ bool study_covers(const Prepared *p, DiagSink *diags)
             break;
         }
     }
-    if (scene->camera.type > CAMERA_ORTHOGRAPHIC) {
-        covers = refuse(diags, scene->camera.span, "a camera that is neither perspective nor orthographic");
+    if (scene->camera.type > CAMERA_ORTHOGRAPHIC || scene->camera.bumps) {
+        covers = refuse(diags, scene->camera.span,
+                        scene->camera.bumps ? "a camera with a `normal`"
+                                            : "a camera that is neither perspective nor orthographic");
     }
     if (p->camera.lens_radius > 0.0) {
         covers = refuse(diags, scene->camera.span, "a camera with an `aperture`");

@@ -519,6 +519,7 @@ static bool run_pilot(Sampling *s)
 static void run_adaptive(Sampling *s)
 {
     s->round.buckets = s->allocation.of_pixel;
+    s->round.blocks = s->allocation.of_block;
     s->round.count = 0;
     s->cost.sample = s->corners ? s->cost.sample : s->sample_seconds;
     for (bool is_first = true;; is_first = false) {
@@ -564,6 +565,7 @@ static void sampling_free(Sampling *s)
 {
     if (s) {
         free(s->allocation.of_pixel);
+        free(s->allocation.of_block);
         free(s->allocation.memory);
         free(s->corners);
         predictor_free(s->predictor);
@@ -583,6 +585,8 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     film->records = calloc(width * height, sizeof *film->records);
     if (s && wanted->is_adaptive) {
         s->allocation.of_pixel = calloc(width * height, sizeof *s->allocation.of_pixel);
+        s->allocation.of_block =
+            calloc(round_blocks(film->width) * round_blocks(film->height), sizeof *s->allocation.of_block);
         s->allocation.memory = calloc(width, ALLOCATION_ROWS * sizeof *s->allocation.memory);
     }
     if (s && has_pilot) {
@@ -591,8 +595,9 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     if (s && predicts) {
         s->predictor = predictor_new(width * height);
     }
-    bool is_whole = s && film->records && (!has_pilot || s->corners) && (!predicts || s->predictor) &&
-                    (!wanted->is_adaptive || (s->allocation.of_pixel && s->allocation.memory));
+    bool is_whole =
+        s && film->records && (!has_pilot || s->corners) && (!predicts || s->predictor) &&
+        (!wanted->is_adaptive || (s->allocation.of_pixel && s->allocation.of_block && s->allocation.memory));
     if (!is_whole) {
         sampling_free(s);
         return NULL;

@@ -29,6 +29,7 @@ typedef struct Round {
     Film *film;
     Filter filter;
     const uint16_t *buckets; // by priority, of each pixel; NULL: all pixels take part
+    const uint16_t *blocks;  // the greatest of each block of KERNEL_ROW by KERNEL_ROW pixels; NULL: not known
     uint16_t least_bucket;   // of those that take part
     bool is_cut;             // only pixels with keys from least_key up to end_key take part (round_key)
     uint32_t least_key, end_key;
@@ -98,6 +99,12 @@ static inline bool round_has(const Round *round, size_t pixel)
     }
     uint32_t key = round_key(round, pixel);
     return key >= round->least_key && key < round->end_key;
+}
+
+// How many blocks, whole or not, are along so many pixels.
+static inline size_t round_blocks(int pixels)
+{
+    return ((size_t)pixels + KERNEL_ROW - 1) / KERNEL_ROW;
 }
 
 // The samples that a pixel gets in a round.
@@ -175,9 +182,9 @@ typedef struct Estimate {
     uint64_t samples;
     double judged;  // pixels that tell of the error
     double corners; // rays through them, which are in no pixel's count
-    // Of pixels that have their corners only, by sort: the sum of what they are taken to be off by, and its relative
-    // variance.
-    double sort_sum[PILOT_SORTS], sort_variance[PILOT_SORTS];
+    // Of pixels that have their corners only, by sort: what each is taken to be off by, squared, the sum of these, and
+    // its relative variance.
+    double sort_mean[PILOT_SORTS], sort_sum[PILOT_SORTS], sort_variance[PILOT_SORTS];
 } Estimate;
 
 // Before the first round: which pixels tell of the error.
@@ -322,12 +329,13 @@ void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
 enum { BUCKETS = 1020, BUCKET_FINE = 4 };
 
 // A round takes about this share of all samples taken before it: what a run may spend too much.
-static const double ROUND_SHARE = 0.25;
+static const double ROUND_SHARE = 0.4;
 
 enum { ALLOCATION_ROWS = NEAR_ROWS + 2 };
 
 typedef struct Allocation {
     uint16_t *of_pixel;                         // width * height; owned by the caller
+    uint16_t *of_block;                         // as round->blocks; owned by the caller
     double *memory;                             // ALLOCATION_ROWS * width; owned by the caller
     double cost[BUCKETS], corner_cost[BUCKETS]; // samples that pixels get next; those that have their corners only
     double corner_priority;                     // of such a pixel, over what it is off by

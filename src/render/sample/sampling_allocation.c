@@ -7,6 +7,7 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "render/sample/sampling.h"
 
@@ -46,12 +47,15 @@ static inline uint16_t bucket_of(double priority)
     return (uint16_t)(bucket < BUCKETS ? bucket : BUCKETS - 1);
 }
 
-// The constants c of all pixels, and what goes from there to a priority.
+// The constants c of all pixels, and what goes from there to a priority. Counts are powers of two, so that what goes by
+// them is in tables by level.
 typedef struct Constants {
-    double to_constant[LEVELS], to_priority[LEVELS]; // by level: counts are powers of two
+    double to_constant[LEVELS], to_priority[LEVELS]; // the last ones are 0 for pixels that can get no more
+    double of_inner[LEVELS];                         // to_constant, where that of the sort counts beside
+    double of_near[LEVELS], of_own[LEVELS];          // of the mean constant around, and of the pixel's own
     double floor;
     double of_share;              // from the variance that strata bring to the halves' halves that it would be seen by
-    double of_sort[SPREAD_SORTS]; // the mean constant of pixels with such a spread
+    double of_sort[SPREAD_SORTS]; // the mean constant of pixels with such a spread, as far as it counts
 } Constants;
 
 static inline int spread_sort(float spread)
@@ -65,50 +69,72 @@ static inline int spread_sort(float spread)
 
 static void sorts_init(Constants *constants, const Film *film)
 {
-    double sums[SPREAD_SORTS] = {0.0}, counts[SPREAD_SORTS] = {0.0};
+    double sums[SPREAD_SORTS] = {0.0};
+    uint64_t counts[SPREAD_SORTS] = {0};
     size_t pixels = (size_t)film->width * (size_t)film->height;
-    for (size_t i = 0; i < pixels; i++) {
-        const PixelRecord *record = &film->records[i];
+    for (const PixelRecord *record = film->records, *end = record + pixels; record < end; record++) {
         if (record->count > 1) {
             int sort = spread_sort(record->spread);
             sums[sort] += record->inner * constants->to_constant[estimate_level(record->count)];
             counts[sort]++;
         }
     }
+    const double part = SORT_COUNT / (SORT_COUNT + 1.0);
     for (int i = 0; i < SPREAD_SORTS; i++) {
-        constants->of_sort[i] = counts[i] > 0.0 ? sums[i] / counts[i] : 0.0;
+        constants->of_sort[i] = counts[i] > 0 ? part * sums[i] / (double)counts[i] : 0.0;
     }
 }
 
-// What a pixel's halves' halves would differ by, were its small shapes all that is in it.
-static double inner_of_small(const Small *small, size_t pixel, double count)
+// What a pixel's halves' halves would differ by, were its small shapes and slivers all that is in it.
+static double inner_known(const Constants *constants, const Round *round, size_t pixel, double count)
 {
-    return small_has(small, pixel)
-               ? small_variance(small, pixel, 0.25 * count) - small_variance(small, pixel, 0.5 * count)
-               : 0.0;
+    const Small *small = round->small;
+    double known = 0.0;
+    if (small_has(small, pixel)) {
+        known = small_variance(small, pixel, 0.25 * count) - small_variance(small, pixel, 0.5 * count);
+    }
+    if (share_has(round->share, pixel) && count > 1.0) {
+        known = fmax(known, constants->of_share * share_variance(round->share, pixel, count));
+    }
+    return known;
 }
 
-static double constant_of(const Constants *constants, const Round *round, size_t pixel)
+// The constants of a row of pixels.
+static void constants_of(const Constants *constants, const Round *round, size_t begin, double *own, double *copy)
 {
-    const PixelRecord *record = &round->film->records[pixel];
-    double seen = (double)record->inner, known = inner_of_small(round->small, pixel, record->count);
-    if (share_has(round->share, pixel) && record->count > 1) {
-        known = fmax(known, constants->of_share * share_variance(round->share, pixel, record->count));
+    const PixelRecord *records = &round->film->records[begin];
+    bool has_known = round->small || round->share;
+    for (int x = 0; x < round->film->width; x++) {
+        const PixelRecord *record = &records[x];
+        double inner = (double)record->inner;
+        if (has_known) {
+            double known = inner_known(constants, round, begin + (size_t)x, record->count);
+            inner = inner > known ? inner : known;
+        }
+        own[x] = inner * constants->of_inner[estimate_level(record->count)];
+        own[x] += record->count > 1 ? constants->of_sort[spread_sort(record->spread)] : 0.0;
+        copy[x] = own[x];
     }
-    double own = (seen > known ? seen : known) * constants->to_constant[estimate_level(record->count)];
-    if (record->count == 1) {
-        return own;
-    }
-    return (SORT_COUNT * constants->of_sort[spread_sort(record->spread)] + own) / (SORT_COUNT + 1.0);
 }
 
-static void constants_init(Constants *constants, const Estimate *estimate, double pixels, double power)
+static void constants_init(Constants *constants, const Estimate *estimate, const Round *round, Allocation *allocation)
 {
-    double sum = 0.0;
+    double power = allocation->power, sum = 0.0, pixels = (double)round->film->width * round->film->height;
     for (int level = 0; level < LEVELS; level++) {
+        double count = exp2(level);
         constants->to_constant[level] = exp2(power * level);
-        constants->to_priority[level] = exp2(-(power + 1.0) * level);
+        constants->of_inner[level] = constants->to_constant[level] / (level > 0 ? SORT_COUNT + 1.0 : 1.0);
+        constants->to_priority[level] = count < UINT32_MAX / 4 ? exp2(-(power + 1.0) * level) : 0.0;
+        constants->of_near[level] = NEIGHBOURS_COUNT / (NEIGHBOURS_COUNT + count);
+        constants->of_own[level] = count / (NEIGHBOURS_COUNT + count);
         sum += constants->to_constant[level] * estimate->levels[level].inner_now;
+    }
+    allocation->corner_priority = 1.0;
+    if (round->has_corners) {
+        // Of corners that are followed by START_SAMPLES, as of samples that are doubled.
+        double left = exp2(-power);
+        allocation->corner_priority = (1.0 - left * left) / (START_SAMPLES * (1.0 - left));
+        constants->to_priority[0] = allocation->corner_priority;
     }
     constants->floor = fmax(PRIORITY_FLOOR * sum / pixels, 1e-30);
     constants->of_share = exp2(power) * (exp2(power) - 1.0);
@@ -119,18 +145,20 @@ static void constants_init(Constants *constants, const Estimate *estimate, doubl
 static void choose_row(Allocation *allocation, const Constants *constants, const Round *round, int y,
                        const double *own, const double *near)
 {
-    size_t begin = (size_t)y * (size_t)round->film->width;
-    for (int x = 0; x < round->film->width; x++) {
-        size_t pixel = begin + (size_t)x;
-        const PixelRecord *record = &round->film->records[pixel];
-        int level = estimate_level(record->count);
-        double count = record->count;
-        double constant = (NEIGHBOURS_COUNT * near[x] + count * own[x]) / (NEIGHBOURS_COUNT + count);
+    int width = round->film->width;
+    size_t begin = (size_t)y * (size_t)width;
+    const PixelRecord *records = &round->film->records[begin];
+    uint16_t *of_pixel = &allocation->of_pixel[begin];
+    uint16_t *of_block = &allocation->of_block[(size_t)(y / KERNEL_ROW) * round_blocks(width)];
+    for (int x = 0; x < width; x++) {
+        uint32_t count = records[x].count;
+        int level = estimate_level(count);
+        double constant = constants->of_near[level] * near[x] + constants->of_own[level] * own[x];
         constant = constant > constants->floor ? constant : constants->floor;
-        bool is_full = record->count > UINT32_MAX / 4;
-        uint16_t bucket = is_full ? 0 : bucket_of(constant * constants->to_priority[level]);
-        allocation->of_pixel[pixel] = bucket;
-        if (round_starts(round, record->count)) {
+        uint16_t bucket = bucket_of(constant * constants->to_priority[level]), *most = &of_block[x / KERNEL_ROW];
+        of_pixel[x] = bucket;
+        *most = *most > bucket ? *most : bucket;
+        if (round_starts(round, count)) {
             allocation->corner_cost[bucket] += START_SAMPLES;
         } else {
             allocation->cost[bucket] += count;
@@ -147,25 +175,17 @@ void allocation_make(Allocation *allocation, const Estimate *estimate, const Rou
     if (round->share) {
         share_set_contrasts(round);
     }
-    constants_init(&constants, estimate, (double)film->width * film->height, allocation->power);
+    constants_init(&constants, estimate, round, allocation);
     sorts_init(&constants, film);
-    allocation->corner_priority = 1.0;
-    if (round->has_corners) {
-        // Of corners that are followed by START_SAMPLES, as of samples that are doubled.
-        double left = exp2(-allocation->power);
-        allocation->corner_priority = (1.0 - left * left) / (START_SAMPLES * (1.0 - left));
-        constants.to_priority[0] = allocation->corner_priority;
-    }
-    for (int i = 0; i < BUCKETS; i++) {
-        allocation->cost[i] = allocation->corner_cost[i] = 0.0;
-    }
+    memset(allocation->cost, 0, sizeof allocation->cost);
+    memset(allocation->corner_cost, 0, sizeof allocation->corner_cost);
+    memset(allocation->of_block, 0, round_blocks(film->width) * round_blocks(film->height) * sizeof(uint16_t));
     Near near = near_begin(allocation->memory, film->width, film->height);
     double *rows = allocation->memory + (ptrdiff_t)NEAR_ROWS * film->width; // of pixels' own constants
     for (int y = 0; y <= film->height; y++) {
-        size_t begin = (size_t)y * (size_t)film->width;
         double *own = rows + (ptrdiff_t)(y % 2) * film->width, *above = rows + (ptrdiff_t)((y + 1) % 2) * film->width;
-        for (int x = 0; y < film->height && x < film->width; x++) {
-            near.values[x] = own[x] = constant_of(&constants, round, begin + (size_t)x);
+        if (y < film->height) {
+            constants_of(&constants, round, (size_t)y * (size_t)film->width, own, near.values);
         }
         near_give(&near, y);
         if (y > 0) {

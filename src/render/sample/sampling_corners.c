@@ -18,11 +18,11 @@ enum {
 };
 
 // Four places in a row, of which the two in the middle are corners of a pixel; where the first or the last is beyond
-// the picture, it is NULL.
-typedef struct PixelEdge {
-    float bend; // what the mean along it is over that of its ends, where light is even: by a parabola
-    float jump; // by how much its ends differ more than those of the sides before and after
-} PixelEdge;
+// the picture, there is no jump before or after.
+typedef struct PixelSide {
+    float bend[3]; // what the mean along it is over that of its ends, where light is even: by a parabola; halved
+    float jumps;   // by how much its ends differ more than those of the sides before and after, squared
+} PixelSide;
 
 static inline float least(float a, float b)
 {
@@ -34,46 +34,49 @@ static inline float most(float a, float b)
     return a > b ? a : b;
 }
 
-static inline PixelEdge side_make(const float *before, const float *first, const float *second, const float *after)
+// The side from a corner to the next, which is `step` away.
+static inline PixelSide side_make(const float *corner, ptrdiff_t step, bool has_before, bool has_after)
 {
-    float own = *second - *first;
-    float next = after ? *after - *second : 0.0f, last = before ? *first - *before : next;
-    next = after ? next : last;
-    float a = last - own, b = own - next;
-    float bend = a > 0.0f ? most(least(a, b), 0.0f) : least(most(a, b), 0.0f);
-    float middle = most(least(last, own), least(most(last, own), next));
-    return (PixelEdge){bend / 12.0f, own - middle};
-}
-
-// A pixel from its corners, and the square of its jumps.
-static inline float pixel_make(const Film *film, const float *corner, int x, int y, float value[3])
-{
-    const ptrdiff_t across = 3, down = 3 * ((ptrdiff_t)film->width + 1);
-    bool left = x > 0, right = x<film->width - 1, above = y> 0, below = y < film->height - 1;
-    float jumps = 0.0f;
+    PixelSide side = {.jumps = 0.0f};
     for (int i = 0; i < 3; i++) {
-        const float *a = corner + i, *b = a + across, *c = a + down, *d = c + across;
-        PixelEdge sides[4] = {side_make(left ? a - across : NULL, a, b, right ? b + across : NULL),
-                              side_make(left ? c - across : NULL, c, d, right ? d + across : NULL),
-                              side_make(above ? a - down : NULL, a, c, below ? c + down : NULL),
-                              side_make(above ? b - down : NULL, b, d, below ? d + down : NULL)};
-        value[i] = 0.25f * (*a + *b + *c + *d);
-        for (int j = 0; j < 4; j++) {
-            value[i] += 0.5f * sides[j].bend;
-            jumps += sides[j].jump * sides[j].jump;
-        }
+        const float *at = corner + i;
+        float own = at[step] - *at;
+        float next = has_after ? at[2 * step] - at[step] : 0.0f, last = has_before ? *at - at[-step] : next;
+        next = has_after ? next : last;
+        float a = last - own, b = own - next;
+        float bend = a > 0.0f ? most(least(a, b), 0.0f) : least(most(a, b), 0.0f);
+        float middle = most(least(last, own), least(most(last, own), next));
+        side.bend[i] = bend / 24.0f;
+        side.jumps += (own - middle) * (own - middle);
     }
-    return jumps;
+    return side;
 }
 
-static void row_make(const Round *round, int y)
+// The pixels of a row, from their corners. Pixels side by side have a side in common; `above` are the sides of the row
+// before, and then those of this one.
+static void row_make(const Round *round, int y, PixelSide *above)
 {
     const Film *film = round->film;
-    size_t begin = (size_t)y * (size_t)film->width;
-    for (int x = 0; x < film->width; x++) {
-        const float *corner = &round->corners[3 * (begin + (size_t)y + (size_t)x)];
-        float jumps = pixel_make(film, corner, x, y, &film->rgb[3 * (begin + (size_t)x)]);
-        film->records[begin + (size_t)x] = (PixelRecord){.count = 1, .inner = jumps};
+    const ptrdiff_t down = 3 * ((ptrdiff_t)film->width + 1);
+    const float *corner = &round->corners[(size_t)down * (size_t)y];
+    PixelRecord *record = &film->records[(size_t)y * (size_t)film->width];
+    float *value = &film->rgb[3 * (size_t)y * (size_t)film->width];
+    bool has_above = y > 0, has_below = y < film->height - 1;
+    PixelSide left = side_make(corner, down, has_above, has_below);
+    for (int x = 0; x < film->width; x++, corner += 3, value += 3, record++) {
+        bool is_first = x == 0, is_last = x == film->width - 1;
+        if (y == 0) {
+            above[x] = side_make(corner, 3, !is_first, !is_last);
+        }
+        PixelSide below = side_make(corner + down, 3, !is_first, !is_last);
+        PixelSide right = side_make(corner + 3, down, has_above, has_below);
+        for (int i = 0; i < 3; i++) {
+            value[i] = 0.25f * (corner[i] + corner[3 + i] + corner[down + i] + corner[down + 3 + i]) +
+                       (above[x].bend[i] + below.bend[i] + left.bend[i] + right.bend[i]);
+        }
+        *record = (PixelRecord){.count = 1, .inner = above[x].jumps + below.jumps + left.jumps + right.jumps};
+        above[x] = below;
+        left = right;
     }
 }
 
@@ -155,10 +158,12 @@ uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory)
     const double of_near = 1.0 / 64.0;
     const Film *film = round->film;
     Near near = near_begin(memory, film->width, film->height);
+    _Static_assert(sizeof(PixelSide) <= (ALLOCATION_ROWS - NEAR_ROWS) * sizeof(double), "a row of them has room");
+    PixelSide *above = (PixelSide *)(memory + (ptrdiff_t)NEAR_ROWS * film->width); // of a row
     for (int y = 0; y <= film->height; y++) {
         size_t begin = (size_t)y * (size_t)film->width;
         if (y < film->height) {
-            row_make(round, y);
+            row_make(round, y, above);
         }
         for (int x = 0; y < film->height && x < film->width; x++) {
             near.values[x] = (double)film->records[begin + (size_t)x].inner;
@@ -233,7 +238,7 @@ void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets)
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
     Sort sorts[PILOT_SORTS] = {{0.0, 0.0, 0.0}};
-    double mean[PILOT_SORTS];
+    double *mean = estimate->sort_mean;
     LevelSums *started = &estimate->levels[estimate_level(START_SAMPLES)];
     sorts_gather(film, buckets, sorts);
     sorts_judge(sorts, mean, estimate->sort_variance);

@@ -27,28 +27,6 @@ static bool has_ratio(const Round *round, int level)
     return has_halves(round) && level >= 2;
 }
 
-// Pixels that were doubled just now: nothing has been chosen by what they say.
-static void add_fresh(Estimate *estimate, const Film *film, const Round *round)
-{
-    size_t pixels = (size_t)film->width * (size_t)film->height;
-    bool has_level[LEVELS] = {false};
-    for (size_t i = 0; i < pixels; i++) {
-        const PixelRecord *record = &film->records[i];
-        if (!round_has(round, i)) {
-            continue;
-        }
-        int level = estimate_level(record->count);
-        LevelSums *sums = &estimate->levels[level];
-        if (!has_level[level] && !round->buckets) {
-            sums->outer = sums->inner = sums->squares = 0.0;
-        }
-        has_level[level] = true;
-        sums->outer += record->outer;
-        sums->squares += (double)record->outer * record->outer;
-        sums->inner += round->buckets ? record->fresh : record->inner;
-    }
-}
-
 // The last step's ratio, or its geometric mean with that of the step before, whichever is less: ratios go up and down
 // with the shapes of the nets, and fall where light is sampled. How many steps it was taken from in *steps.
 static double ratio_of(const Estimate *estimate, const Round *round, int level, int *steps)
@@ -67,28 +45,67 @@ static double ratio_of(const Estimate *estimate, const Round *round, int level, 
     return *steps > 0 ? fmin(fmax(exp2(least), RATIO_LEAST), RATIO_MOST) : RATIO_LEAST;
 }
 
-static void add_now(Estimate *estimate, const Film *film, const Round *round)
+// Pixels that were doubled just now: nothing has been chosen by what they say.
+static inline void fresh_add(LevelSums *sums, const PixelRecord *record, bool is_chosen, bool *has_level)
 {
-    size_t pixels = (size_t)film->width * (size_t)film->height;
-    estimate->samples = (uint64_t)estimate->corners;
-    for (int sort = 0; sort < PILOT_SORTS; sort++) {
-        estimate->sort_sum[sort] = 0.0;
+    if (!*has_level && !is_chosen) {
+        sums->outer = sums->inner = sums->squares = 0.0;
     }
+    *has_level = true;
+    sums->outer += record->outer;
+    sums->squares += (double)record->outer * record->outer;
+    sums->inner += is_chosen ? record->fresh : record->inner;
+}
+
+static void now_clear(Estimate *estimate)
+{
     for (int level = 0; level < LEVELS; level++) {
         LevelSums *sums = &estimate->levels[level];
         sums->outer_now = sums->outer_squares = sums->inner_now = 0.0;
     }
+}
+
+// What so many pixels of each sort that have their corners only bring: all of a sort the same.
+static void add_corners(Estimate *estimate, const uint32_t counts[PILOT_SORTS])
+{
+    LevelSums *sums = &estimate->levels[0];
+    for (int sort = 0; sort < PILOT_SORTS; sort++) {
+        double mean = estimate->sort_mean[sort], sum = counts[sort] * mean;
+        estimate->sort_sum[sort] = sum;
+        sums->outer_now += sum;
+        sums->inner_now += sum;
+        sums->outer_squares += sum * mean;
+    }
+}
+
+// All pixels, and, if a round was just traced, what those say that had a part in it.
+static void add_now(Estimate *estimate, const Film *film, const Round *round, bool has_fresh)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    const PixelRecord *records = film->records;
+    bool has_level[LEVELS] = {false}, is_chosen = round->buckets != NULL, has_corners = round->has_corners;
+    uint32_t by_sort[PILOT_SORTS] = {0};
+    uint64_t samples = (uint64_t)estimate->corners;
+    now_clear(estimate);
     for (size_t i = 0; i < pixels; i++) {
-        const PixelRecord *record = &film->records[i];
-        LevelSums *sums = &estimate->levels[estimate_level(record->count)];
-        estimate->samples += round->has_corners && record->count == 1 ? 0 : record->count;
-        sums->outer_now += record->outer;
+        const PixelRecord *record = &records[i];
+        if (has_corners && record->count == 1) {
+            by_sort[(int)record->fresh]++;
+            continue;
+        }
+        int level = estimate_level(record->count);
+        LevelSums *sums = &estimate->levels[level];
+        double outer = record->outer;
+        samples += record->count;
+        sums->outer_now += outer;
         sums->inner_now += record->inner;
-        sums->outer_squares += (double)record->outer * record->outer;
-        if (round->has_corners && record->count == 1) {
-            estimate->sort_sum[(int)record->fresh] += record->outer;
+        sums->outer_squares += outer * outer;
+        if (has_fresh && round_has(round, i)) {
+            fresh_add(sums, record, is_chosen, &has_level[level]);
         }
     }
+    estimate->samples = samples;
+    add_corners(estimate, by_sort);
 }
 
 static void add_pixels(LevelSums *sums, const Film *film, Tile part)
@@ -120,10 +137,7 @@ static void add_alike(Estimate *estimate, const Film *film, const Round *round)
     sums.squares = sums.outer_squares;
     sums.outer_now = sums.outer;
     sums.inner_now = sums.inner;
-    for (int level = 0; level < LEVELS; level++) {
-        LevelSums *none = &estimate->levels[level];
-        none->outer_now = none->outer_squares = none->inner_now = 0.0;
-    }
+    now_clear(estimate);
     estimate->levels[estimate_level(round->count)] = sums;
     estimate->samples = (uint64_t)round->count * (uint64_t)film->width * (uint64_t)film->height;
 }
@@ -214,15 +228,14 @@ void estimate_update(Estimate *estimate, const Film *film, const Round *round, b
     if (is_whole && !round->buckets) {
         add_alike(estimate, film, round);
     } else {
-        add_fresh(estimate, film, round);
-        add_now(estimate, film, round);
+        add_now(estimate, film, round, true);
     }
     tell(estimate, film, round, error);
 }
 
 void estimate_now(Estimate *estimate, const Film *film, const Round *round, SamplingError *error)
 {
-    add_now(estimate, film, round);
+    add_now(estimate, film, round, false);
     tell(estimate, film, round, error);
 }
 

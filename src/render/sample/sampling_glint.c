@@ -14,6 +14,7 @@
 #include "render/sample/sampling_small.h"
 #include "render/sample/tiles.h"
 #include "render/shade/light.h"
+#include "render/shade/surface_uv.h"
 
 // Where a highlight falls to e^-4 when the mirrored direction is turned by more, it is no narrow one.
 static const double TURNED_MOST = 0.2;
@@ -89,8 +90,7 @@ static Rgb visit_layer(void *client, const TextureLayer *layer)
     if (!search->facet->finish && is_sharp(finish)) {
         search->facet->finish = finish;
         if (layer->normal != RECORD_NONE) {
-            search->facet->normal =
-                texture_normal(&search->prepared->textures, layer, search->facet->normal);
+            search->facet->normal = texture_normal(layer, search->facet->normal);
         }
     }
     return rgb_grey(1.0);
@@ -114,8 +114,11 @@ static bool facet_at(const Prepared *p, const Film *film, double x, double y, Fa
     }
     if (material & MATERIAL_COMPOUND) {
         LayerSearch search = {p, facet};
-        (void)texture_walk(&p->textures, p->compounds[material & ~MATERIAL_COMPOUND].texture, facet->surface.point,
-                           p->adc_bailout, visit_layer, &search);
+        uint32_t texture = p->compounds[material & ~MATERIAL_COMPOUND].texture;
+        Vec3 room;
+        const Vec3 *uv = shade_uv(p, texture, facet->hit.shape, facet->surface.point, &room);
+        TextureSight sight = {facet->surface.point, uv, &facet->normal, &facet->direction, false};
+        (void)texture_walk(&p->textures, texture, sight, p->adc_bailout, visit_layer, &search);
     } else if (is_sharp(&p->finishes[p->materials[material].finish])) {
         facet->finish = &p->finishes[p->materials[material].finish];
     }

@@ -164,22 +164,48 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
     }
 }
 
-// The pixels of a block that take part.
+// The pixels of a block that take part, a quarter after the other.
 static ChosenPixel *block_choose(const Round *round, Tile block, ChosenPixel *chosen)
 {
+    enum { QUARTER = KERNEL_ROW / 2, ROWS = 4 * QUARTER };
     const Film *film = round->film;
     bool has_estimate = !round->sampling->has_no_estimate;
     bool is_whole = film->left % JUDGED_BLOCK == 0 && film->top % JUDGED_BLOCK == 0; // one block of the picture
     bool is_judged = has_estimate && round_judges(round, block.left, block.top);
-    for (int y = block.top; y < block.bottom; y++) {
+    for (int row = 0; row < ROWS; row++) {
+        int y = block.top + row % QUARTER + row / (2 * QUARTER) * QUARTER;
+        int left = block.left + row / QUARTER % 2 * QUARTER;
+        int right = left + QUARTER < block.right ? left + QUARTER : block.right;
         size_t begin = (size_t)y * (size_t)film->width;
-        for (int x = block.left; x < block.right; x++) {
+        for (int x = left; y < block.bottom && x < right; x++) {
             uint32_t count = round_samples(round, begin + (size_t)x);
             if (count > 0) {
                 uint32_t had = film->records[begin + (size_t)x].count;
                 is_judged = is_whole ? is_judged : has_estimate && round_judges(round, x, y);
                 *chosen++ = (ChosenPixel){x, y, begin + (size_t)x, count, round_starts(round, had), is_judged, 0};
             }
+        }
+    }
+    return chosen;
+}
+
+// Whether some pixel of a block may take part.
+static inline bool block_takes_part(const Round *round, int left, int top)
+{
+    size_t row = round_blocks(round->film->width) * (size_t)(top / KERNEL_ROW);
+    return !round->blocks || round->blocks[row + (size_t)(left / KERNEL_ROW)] >= round->least_bucket;
+}
+
+// Blocks of pixels, each beside the last, four by four, so that rays of one call stay near each other.
+static ChosenPixel *tile_choose(const Round *round, Tile tile, ChosenPixel *chosen)
+{
+    enum { BLOCKS = TILE_SIZE / KERNEL_ROW };
+    _Static_assert(BLOCKS == 4, "two bits for a column and a row");
+    for (int i = 0; i < BLOCKS * BLOCKS; i++) {
+        int left = tile.left + KERNEL_ROW * ((i & 1) | (i >> 1 & 2));
+        int top = tile.top + KERNEL_ROW * ((i >> 1 & 1) | (i >> 2 & 2));
+        if (left < tile.right && top < tile.bottom && block_takes_part(round, left, top)) {
+            chosen = block_choose(round, tile_block(tile, left, top), chosen);
         }
     }
     return chosen;
@@ -192,12 +218,7 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
     Shares shares = {0};
     Batch batch;
     batch_init(&batch, round, scratch);
-    // Blocks of pixels, so that rays of one call stay near each other.
-    for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
-        for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
-            end = block_choose(round, tile_block(tile, left, top), end);
-        }
-    }
+    end = tile_choose(round, tile, end);
     for (const ChosenPixel *pixel = chosen; pixel < end; pixel++) {
         SampleSums *sums = &parts[pixel - chosen];
         *sums = (SampleSums){.squares = rgb_grey(0.0),

@@ -433,12 +433,6 @@ static double sliver_area(const Share *share, size_t pixel, double count)
     return sum;
 }
 
-double share_variance(const Share *share, size_t pixel, double count)
-{
-    double around = (double)share->contrasts[pixel].around;
-    return around > 0.0 ? around * sliver_area(share, pixel, count) / count : 0.0;
-}
-
 // Of the strata that have samples: the mean square of how far they are from their common mean, in linear light, and
 // what that would be were all of them off by 1 from each other.
 static double pixel_contrast(const Round *round, size_t pixel, double *weight)
@@ -480,6 +474,19 @@ static double contrast_around(const Round *round, int x, int y, double of_all)
     return weight > 0.0 ? square / weight : of_all;
 }
 
+// Most pixels of most rounds are as they were.
+static inline void contrast_renew(const Round *round, size_t pixel, ShareContrast *contrast)
+{
+    uint32_t samples = round->film->records[pixel].count;
+    if (contrast->samples != samples) {
+        double weight, square = pixel_contrast(round, pixel, &weight);
+        *contrast = (ShareContrast){.square = (float)square,
+                                    .weight = (float)weight,
+                                    .sliver = (float)sliver_area(round->share, pixel, samples),
+                                    .samples = samples};
+    }
+}
+
 typedef struct ContrastSums {
     double square, weight;
 } ContrastSums;
@@ -490,10 +497,10 @@ static void contrasts_add(const Round *round, Tile block, ContrastSums *sums)
         for (int x = block.left; x < block.right; x++) {
             size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
             if (share_has(round->share, pixel)) {
-                double weight, square = pixel_contrast(round, pixel, &weight);
-                round->share->contrasts[pixel] = (ShareContrast){.square = (float)square, .weight = (float)weight};
-                sums->square += square;
-                sums->weight += weight;
+                ShareContrast *contrast = &round->share->contrasts[pixel];
+                contrast_renew(round, pixel, contrast);
+                sums->square += (double)contrast->square;
+                sums->weight += (double)contrast->weight;
             }
         }
     }
@@ -505,8 +512,7 @@ static void contrasts_spread(const Round *round, Tile block, ContrastSums *sums)
     for (int y = block.top; y < block.bottom; y++) {
         for (int x = block.left; x < block.right; x++) {
             size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
-            if (share_has(round->share, pixel) &&
-                sliver_area(round->share, pixel, round->film->records[pixel].count) > 0.0) {
+            if (round->share->contrasts[pixel].sliver > 0.0f) {
                 round->share->contrasts[pixel].around = (float)contrast_around(round, x, y, of_all);
             }
         }

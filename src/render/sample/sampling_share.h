@@ -29,6 +29,8 @@ typedef struct ShareStratum {
 // and the mean square over the pixel and those around it, in linear light.
 typedef struct ShareContrast {
     float square, weight, around;
+    float sliver;     // what strata have of the pixel that are too small for its samples
+    uint32_t samples; // of the pixel, that the square and the sliver are of
 } ShareContrast;
 
 // What is known of a film.
@@ -83,8 +85,13 @@ typedef struct ShareMeans {
     Rgb between;            // the mean square of the strata's means in the new ones
 } ShareMeans;
 
-// The variance of the mean of so many samples that strata bring which are too small to be weighted by their shares.
-double share_variance(const Share *share, size_t pixel, double count);
+// The variance of the mean of a pixel's samples, of which there are `count`, that strata bring which are too small to
+// be weighted by their shares: as share_set_contrasts knows it.
+static inline double share_variance(const Share *share, size_t pixel, double count)
+{
+    const ShareContrast *contrast = &share->contrasts[pixel];
+    return contrast->sliver > 0.0f ? (double)contrast->around * (double)contrast->sliver / count : 0.0;
+}
 
 // The mean of new samples.
 Rgb share_mean(const ShareSums *sums);

@@ -7,6 +7,7 @@
 // SPDX-License-Identifier: MIT
 #include "math/extreme.h"
 #include "render/shade/shade.h"
+#include "render/shade/surface_uv.h"
 
 enum { ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES, FLAT_FEATURES = ALL_FEATURES & ~RENDER_NORMALS };
 
@@ -28,6 +29,7 @@ typedef struct LayerSum {
     Rgb light;
     Rgb through;      // what the layers of the present texture of a map let through
     ShadeMirror *own; // what these layers mirror, for each way on
+    uint32_t layer;   // how many textures have been asked for
 } LayerSum;
 
 // Of layers the top one's; a map of textures has none of its own, nor have those in it. Measured.
@@ -82,6 +84,7 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
 {
     LayerSum *sum = client;
     ShadeMaterial material = shade_material(sum->p, FLAT_FEATURES, layer->pigment, layer->finish);
+    material.layer = sum->layer++;
     Rgb reflectance, left = shade_left_below(sum->p, FLAT_FEATURES, &material, sum->at);
     if (layer->is_top) {
         end_mirrors(sum, sum->scatter, 1);
@@ -94,6 +97,13 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
     return left;
 }
 
+// `room` is for surface coordinates, if the texture asks for them.
+static TextureSight sight_of(const Prepared *p, const Compound *compound, const ShadingPoint *at, Vec3 *room)
+{
+    const Vec3 *uv = shade_uv(p, compound->texture, at->shape, at->point, room);
+    return (TextureSight){at->point, uv, &at->normal, &at->direction, false};
+}
+
 Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, ScatterRecord *scatter,
                    RenderStatistics *statistics)
 {
@@ -103,7 +113,9 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     ShadeMirror own = {.weight = 0.0};
     LayerSum sum = {p, &shared, weight, scatter, statistics, .own = &own};
     *scatter = (ScatterRecord){.reflection_exponent = 1.0, .refraction = refraction_of(p, compound)};
-    TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
+    Vec3 room;
+    TextureSight sight = sight_of(p, compound, at, &room);
+    TextureThrough through = texture_walk(&p->textures, compound->texture, sight, p->adc_bailout, add_layer, &sum);
     end_mirrors(&sum, scatter, 1);
     scatter->through = through.light;
     scatter->through_weight = through.weight;
@@ -175,12 +187,13 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     LayerSum *sum = &bumps->sum;
     ShadingPoint at = *sum->at;
     if (layer->normal != RECORD_NONE) {
-        at.normal = texture_normal(&sum->p->textures, layer, at.normal);
+        at.normal = texture_normal(layer, at.normal);
     }
     if (layer->is_top) {
         begin_stack(bumps, layer, at.normal);
     }
     ShadeMaterial material = shade_material(sum->p, ALL_FEATURES, layer->pigment, layer->finish);
+    material.layer = sum->layer++;
     Rgb reflectance, left = shade_left_below(sum->p, ALL_FEATURES, &material, &at);
     if (shade_mirror(sum->p, ALL_FEATURES, &material, &at, &reflectance)) {
         int way = way_for(bumps, at.normal, material.finish->reflection_exponent);
@@ -203,7 +216,9 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
         .refraction = refraction_of(p, compound),
     };
     ways->count = 0;
-    texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_bumpy_layer, &bumps);
+    Vec3 room;
+    TextureSight sight = sight_of(p, compound, at, &room);
+    texture_walk(&p->textures, compound->texture, sight, p->adc_bailout, add_bumpy_layer, &bumps);
     end_stack(&bumps);
     if (ways->count == 0) {
         way_for(&bumps, at->normal, 1.0);
@@ -214,7 +229,6 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
 // ---- caustics
 
 typedef struct CausticSum {
-    const TextureTable *table;
     Vec3 normal, direction;
     double exponent;
 } CausticSum;
@@ -223,14 +237,28 @@ typedef struct CausticSum {
 static Rgb gather_layer(void *client, const TextureLayer *layer)
 {
     const CausticSum *sum = client;
-    Vec3 normal = layer->normal != RECORD_NONE ? texture_normal(sum->table, layer, sum->normal) : sum->normal;
+    Vec3 normal = layer->normal != RECORD_NONE ? texture_normal(layer, sum->normal) : sum->normal;
     return rgb_grey(1.0 + pow(fabs(vec3_dot(normal, sum->direction)), sum->exponent));
 }
 
 // The factor 45 is POV-Ray's, found by fitting pictures to 1/65535.
-Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, Vec3 direction)
+Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape, Vec3 direction)
 {
+    Vec3 room;
+    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
     Vec3 normal = vec3_dot(surface->normal, direction) > 0.0 ? vec3_neg(surface->normal) : surface->normal;
-    CausticSum sum = {&p->textures, normal, direction, 45.0 * p->interiors[compound->interior].caustics};
-    return texture_walk(&p->textures, compound->texture, surface->point, 0.0, gather_layer, &sum).light;
+    CausticSum sum = {normal, direction, 45.0 * p->interiors[compound->interior].caustics};
+    TextureSight sight = {surface->point, uv, &normal, &direction, true};
+    return texture_walk(&p->textures, compound->texture, sight, 0.0, gather_layer, &sum).light;
+}
+
+Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape,
+                         Vec3 direction)
+{
+    Vec3 room;
+    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
+    bool turns = p->textures.faces && vec3_dot(surface->normal, direction) > 0.0;
+    Vec3 normal = turns ? vec3_neg(surface->normal) : surface->normal;
+    TextureSight sight = {surface->point, uv, &normal, &direction, true};
+    return texture_walk(&p->textures, compound->texture, sight, 0.0, NULL, NULL).light;
 }

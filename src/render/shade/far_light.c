@@ -59,7 +59,7 @@ Rgb shade_far_light(const Prepared *p, const ShadingPoint *at, Vec3 end, Vec3 to
             break;
         }
         Surface surface = geometry_surface(p->geometry, FEATURES, ray, hit);
-        Rgb through = shade_surface_through(p, FEATURES, &surface, towards);
+        Rgb through = shade_surface_through(p, FEATURES, &surface, hit.shape, towards);
         if (rgb_is_black(through)) {
             return through;
         }

@@ -166,7 +166,7 @@ MediumStack prepared_start(const Prepared *prepared, Vec3 origin, MediumTable *t
 {
     const PreparedCamera *camera = &prepared->camera;
     MediumList own;
-    if (!camera_type_moves(camera->type) && camera->lens_radius == 0.0) {
+    if (!camera_type_moves(camera->through) && camera->lens_radius == 0.0) {
         return medium_load(table, &prepared->start);
     }
     prepared_inside(prepared, origin, &own);

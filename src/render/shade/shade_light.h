@@ -52,12 +52,13 @@ typedef struct ShadeMaterial {
     Rgb pigment;
     Rgb opaque; // opaque share × pigment
     const PreparedFinish *finish;
+    uint32_t layer; // of a surface of several textures: how many are asked for before this one
 } ShadeMaterial;
 
 RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned features, Rgbft pigment, FinishIndex finish)
 {
     Rgb colour = rgbft_rgb(pigment);
-    ShadeMaterial out = {colour, colour, &p->finishes[finish]};
+    ShadeMaterial out = {colour, colour, &p->finishes[finish], 0};
     if (features & RENDER_TRANSPARENCY) {
         out.opaque = rgb_scale(texture_pigment_opaque(p->is_old, pigment), colour);
     }
@@ -100,18 +101,22 @@ RT_ALWAYS_INLINE Rgb shade_shadow_crossed(const Prepared *p, const Surface *surf
 }
 
 // What a surface whose interior has caustics multiplies light with that goes through it. In compound.c.
-Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, Vec3 direction);
+Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape, Vec3 direction);
+// The same of any other compound.
+Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape,
+                         Vec3 direction);
 
 // What a surface multiplies light with that goes through it in a direction.
-RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface, Vec3 direction)
+RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface, ShapeId shape,
+                                           Vec3 direction)
 {
     if ((features & RENDER_TEXTURES) && (surface->material & MATERIAL_COMPOUND)) {
         const Compound *compound = &p->compounds[surface->material & ~MATERIAL_COMPOUND];
         if ((features & RENDER_INTERIORS) && compound->interior != RECORD_NONE &&
             p->interiors[compound->interior].caustics != 0.0) {
-            return shade_caustics(p, compound, surface, direction);
+            return shade_caustics(p, compound, surface, shape, direction);
         }
-        return texture_walk(&p->textures, compound->texture, surface->point, 0.0, NULL, NULL).light;
+        return shade_layers_through(p, compound, surface, shape, direction);
     }
     return texture_pigment_through(material_pigment(&p->materials[surface->material]));
 }
@@ -179,7 +184,7 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, c
     uint32_t kept = has_interiors ? at->media->count : 0;
     for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
         Surface surface = geometry_surface(p->geometry, features, ray, hit);
-        Rgb through = shade_surface_through(p, features, &surface, ray.direction);
+        Rgb through = shade_surface_through(p, features, &surface, hit.shape, ray.direction);
         if (rgb_is_black(through) || passed > p->crossings_max) {
             share = rgb_grey(0.0);
             break;
@@ -349,11 +354,11 @@ RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigm
                1.0 + share * (pigment.blue - 1.0));
 }
 
-// What is less by chance: the same at a point for any number of threads.
-RT_ALWAYS_INLINE double shade_grain(const PreparedLight *light, const ShadingPoint *at)
+// What is less by chance: the same at a point for any number of threads, and another number for each texture there.
+RT_ALWAYS_INLINE double shade_grain(const PreparedLight *light, const ShadingPoint *at, uint32_t layer)
 {
     enum { GRAIN = 1 << 20 }; // no light of an area has this number
-    return 0.5 + light_random(light_key(light, at->point, GRAIN, GRAIN));
+    return 0.5 + light_random(light_key(light, at->point, GRAIN, GRAIN + (int)(layer % GRAIN)));
 }
 
 // Colours of a thin layer: light that goes through it once more is ahead by as much as the angles of light and viewer
@@ -394,7 +399,7 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     double diffuse = back ? finish->diffuse_back : finish->diffuse;
     Rgb sum = rgb_scale(falloff, rgb_scale(diffuse, material->opaque));
     if ((features & RENDER_TEXTURES) && finish->crand > 0.0 && diffuse > 0.0) {
-        sum = rgb_add_scaled(sum, -finish->crand * shade_grain(light, at), material->pigment);
+        sum = rgb_add_scaled(sum, -finish->crand * shade_grain(light, at, material->layer), material->pigment);
     }
     if ((features & RENDER_HIGHLIGHTS) && finish->shines && front && !light->shadowless) {
         double shine = shade_highlights(finish, at, towards);

@@ -293,7 +293,8 @@ RT_SELDOM void shade_tile_dome(const Prepared *p, unsigned features, TileScratch
         ShadingPoint at = shade_tile_lit_point(features, scratch, i);
         at.stream = streams ? &streams[tile->surfaces.ray[i]] : NULL;
         ShadeMaterial material = {rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]),
-                                  rgb(tile->diffuse[0][i], tile->diffuse[1][i], tile->diffuse[2][i]), tile->finish[i]};
+                                  rgb(tile->diffuse[0][i], tile->diffuse[1][i], tile->diffuse[2][i]), tile->finish[i],
+                                  0};
         Rgb own = dome_light(p, &material, &at, statistics);
         tile->light[0][i] += own.red;
         tile->light[1][i] += own.green;

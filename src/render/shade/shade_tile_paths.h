@@ -58,7 +58,7 @@ RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(const Prepared *p, unsigned 
                              .conserves_energy = tile->finish[i]->conserves_energy};
     if ((features & RENDER_REFLECTION) && tile->finish[i]->reflects) {
         Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
-        ShadeMaterial material = {pigment, pigment, tile->finish[i]};
+        ShadeMaterial material = {pigment, pigment, tile->finish[i], 0};
         ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
         shade_set_mirror(p, features, &material, &at, &scatter);
     }

@@ -37,17 +37,32 @@ typedef struct AlongRecords {
 // entries has a list of none. Records that begin with the same entry share their numbers. All is in the arena.
 const AlongList *along_lists(Arena *arena, const AlongRecords *records, const AlongRecords *entries) RT_MUST_CHECK;
 
+// How many of numbers that rise are no more than `value`. Long lists are halved first; no branch depends on the value.
+RT_ALWAYS_INLINE uint32_t along_count(const double *at, uint32_t count, double value)
+{
+    enum { COUNTED_MOST = 8 };
+    uint32_t low = 0, left = count;
+    while (left > COUNTED_MOST) {
+        uint32_t half = left / 2;
+        low += half & -(uint32_t)(value >= at[low + half - 1]);
+        left -= half;
+    }
+    uint32_t known = low;
+    for (uint32_t i = 0; i < left; i++) {
+        low += value >= at[known + i];
+    }
+    return low;
+}
+
 // The place of `value` in a list of at least one entry. As in POV-Ray, the last entry counts from its own place on and
 // the first one up to its own; between them stands the value before the first entry beyond it. So a list that does not
 // rise has its meaning, too.
-static inline AlongPlace along_find(const AlongList *list, double value)
+RT_ALWAYS_INLINE AlongPlace along_find(const AlongList *list, double value)
 {
     const double *at = list->at;
     uint32_t last = list->count - 1, low = 0;
     if (list->rises) {
-        for (uint32_t i = 1; i <= last; i++) {
-            low += value >= at[i];
-        }
+        low = along_count(at + 1, last, value);
     } else {
         while (low < last && value >= at[low + 1]) {
             low++;

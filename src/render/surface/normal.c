@@ -53,9 +53,15 @@ static Vec3 lean(const TextureTable *table, uint32_t index, Vec3 point)
 
 // ---- normals
 
-static Vec3 turned(const TextureTable *table, uint32_t index, Vec3 outer, Vec3 normal, bool keeps_length);
+// Where it is asked for: the point, and the surface coordinates there.
+typedef struct NormalPlace {
+    Vec3 point;
+    const Vec3 *uv;
+} NormalPlace;
 
-static Vec3 average(const TextureTable *table, uint32_t first, Vec3 point, Vec3 normal, bool keeps_length)
+static Vec3 turned(const TextureTable *table, uint32_t index, NormalPlace outer, Vec3 normal, bool keeps_length);
+
+static Vec3 average(const TextureTable *table, uint32_t first, NormalPlace point, Vec3 normal, bool keeps_length)
 {
     const NormalEntry *entries = table->scene->normal_entries.items;
     Vec3 sum = vec3(0.0, 0.0, 0.0);
@@ -68,7 +74,7 @@ static Vec3 average(const TextureTable *table, uint32_t first, Vec3 point, Vec3 
 }
 
 // What the entries of a map make of the normal, all in the map's space.
-static Vec3 mapped(const TextureTable *table, uint32_t index, Vec3 point, Vec3 normal, bool keeps_length)
+static Vec3 mapped(const TextureTable *table, uint32_t index, NormalPlace point, Vec3 normal, bool keeps_length)
 {
     const Normal *record = &table->scene->normals.items[index];
     const NormalEntry *entries = table->scene->normal_entries.items;
@@ -76,7 +82,7 @@ static Vec3 mapped(const TextureTable *table, uint32_t index, Vec3 point, Vec3 n
         return average(table, record->entries, point, normal, keeps_length);
     }
     AlongPlace place =
-        along_find(&table->normal_lists[index], pattern_value_moved(&record->pattern, &table->source, point));
+        along_find(&table->normal_lists[index], pattern_value_moved(&record->pattern, &table->source, point.point));
     Vec3 low = turned(table, entries[place.low].normal, point, normal, keeps_length);
     if (place.share == 0.0) {
         return low;
@@ -91,17 +97,18 @@ static bool has_own_length(const Normal *record)
     return record->entries != RECORD_NONE && record->pattern.type != PATTERN_AVERAGE;
 }
 
-static Vec3 turned(const TextureTable *table, uint32_t index, Vec3 outer, Vec3 normal, bool keeps_length)
+static Vec3 turned(const TextureTable *table, uint32_t index, NormalPlace outer, Vec3 normal, bool keeps_length)
 {
     const Normal *record = &table->scene->normals.items[index];
     const Transform *to_pattern = &table->normal_to_pattern[index];
     keeps_length |= record->flags & NORMAL_KEEPS_LENGTH;
     // Turbulence moves the point once, for the corners around it and for the entries of a map as well. Measured.
-    Vec3 point = pattern_moved(&record->pattern, &table->source, transform_point(to_pattern, outer));
+    Vec3 space = texture_space(&record->pattern, outer.point, outer.uv);
+    Vec3 point = pattern_moved(&record->pattern, &table->source, transform_point(to_pattern, space));
     Vec3 inner = transform_normal(&record->to_world, normal);
     inner = keeps_length ? inner : vec3_normalize(inner);
     if (record->entries != RECORD_NONE) {
-        inner = mapped(table, index, point, inner, keeps_length);
+        inner = mapped(table, index, (NormalPlace){point, outer.uv}, inner, keeps_length);
     } else if (pattern_info((PatternType)record->pattern.type)->is_special_normal) {
         inner = vec3_add_scaled(inner, record->amount, normal_special(&record->pattern, &table->source, point));
     } else {
@@ -122,13 +129,35 @@ static Vec3 into(const TextureTable *table, const TexturePlace *place, Vec3 norm
     return vec3_normalize(transform_normal(&table->scene->textures.items[place->texture].to_world, outer));
 }
 
-Vec3 texture_normal(const TextureTable *table, const TextureLayer *layer, Vec3 normal)
+// Bumps can be as deep as numbers go, or cancel each other.
+static Vec3 unit_or(Vec3 result, Vec3 normal)
 {
-    Vec3 result = turned(table, layer->normal, layer->place->point, into(table, layer->place, normal), false);
+    double length = vec3_length(result);
+    return length > 0.0 && isfinite(length) ? vec3_scale(1.0 / length, result) : normal;
+}
+
+static NormalPlace place_of(const TextureLayer *layer)
+{
+    return (NormalPlace){layer->place->point, layer->place->uv};
+}
+
+Vec3 texture_normal_inside(const TextureLayer *layer, Vec3 normal)
+{
+    Vec3 inner = into(layer->table, layer->place, normal);
+    return unit_or(turned(layer->table, layer->normal, place_of(layer), inner, false), inner);
+}
+
+Vec3 texture_normal(const TextureLayer *layer, Vec3 normal)
+{
+    const TextureTable *table = layer->table;
+    Vec3 result = turned(table, layer->normal, place_of(layer), into(table, layer->place, normal), false);
     for (const TexturePlace *place = layer->place; place->outer; place = place->outer) {
         result = transform_normal(&table->texture_to_pattern[place->texture], result);
     }
-    // Bumps can be as deep as numbers go, or cancel each other.
-    double length = vec3_length(result);
-    return length > 0.0 && isfinite(length) ? vec3_scale(1.0 / length, result) : normal;
+    return unit_or(result, normal);
+}
+
+Vec3 texture_bent(const TextureTable *table, uint32_t normal, Vec3 point, Vec3 direction)
+{
+    return unit_or(turned(table, normal, (NormalPlace){point, NULL}, direction, false), direction);
 }

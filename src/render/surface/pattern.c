@@ -11,6 +11,7 @@
 #include "base/attributes.h"
 #include "base/isa.h"
 #include "math/rest.h"
+#include "render/surface/facing.h"
 #include "render/surface/formula.h"
 #include "render/surface/normal_special.h"
 #include "render/surface/pattern_fractal.h"
@@ -174,6 +175,8 @@ static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_SPIRAL2] = pattern_spiral2,
     [PATTERN_FUNCTION] = formula_value,
     [PATTERN_PIGMENT] = formula_pigment,
+    [PATTERN_SLOPE] = facing_slope,
+    [PATTERN_AOI] = facing_aoi,
     [PATTERN_MANDEL] = pattern_fractal,
     [PATTERN_JULIA] = pattern_fractal,
     [PATTERN_QUILTED] = quilted,

@@ -7,6 +7,7 @@
 #ifndef RENDER_SURFACE_PATTERN_H
 #define RENDER_SURFACE_PATTERN_H
 
+#include "base/attributes.h"
 #include "math/noise.h"
 #include "math/vec3.h"
 #include "math/transform.h"
@@ -32,7 +33,14 @@ typedef struct NoiseSource {
     const Transform *warp_back; // of each warp, into the space behind it
     const FormulaStep *steps;
     const struct TextureTable *table;
+    const struct Facing *facing; // of a surface; NULL where there is none
 } NoiseSource;
+
+// The point in the space around a pattern's transform: surface coordinates where it has those.
+static inline Vec3 texture_space(const Pattern *pattern, Vec3 outer, const Vec3 *uv)
+{
+    return RT_UNLIKELY(pattern->flags & PATTERN_ON_SURFACE) && uv ? *uv : outer;
+}
 
 // The point at which a pattern is looked at: moved, if it has turbulence that is no part of its formula.
 Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point);

@@ -138,7 +138,7 @@ double pattern_crackle(const Pattern *pattern, const NoiseSource *source, Vec3 p
     bool is_usual = pattern->metric == 2.0 && vec3_max_abs(p) < largest;
     Nearest nearest = is_usual ? find_nearest_by_squares(source->noise, p, pattern->offset * pattern->offset)
                                : find_nearest(pattern, source, p);
-    if (pattern->is_solid) {
+    if (pattern->flags & PATTERN_SOLID) {
         return noise_value(source->noise, pattern_generator(pattern, source), nearest.site);
     }
     double sum = pattern->form.x * nearest.way[0] + pattern->form.y * nearest.way[1] +

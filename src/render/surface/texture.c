@@ -13,6 +13,7 @@
 
 #include "math/extreme.h"
 #include "math/given_surface.h"
+#include "render/surface/facing.h"
 #include "render/surface/formula.h"
 #include "scene/blob.h"
 #include "scene/corners.h"
@@ -41,6 +42,11 @@ static bool any_pattern(const Scene *scene, bool (*holds)(const Pattern *pattern
         }
     }
     return false;
+}
+
+static bool asks_surface(const Pattern *pattern)
+{
+    return pattern_info((PatternType)pattern->type)->is_of_surface;
 }
 
 static bool find_waves(TextureTable *table, const Scene *scene)
@@ -124,6 +130,76 @@ static bool find_opaque(TextureTable *table, const Pigment *pigment)
     return is_opaque;
 }
 
+// ---- what asks for surface coordinates
+
+// Of each record a byte, 1 if it asks for them. What a record is made of stands before it.
+typedef struct Askers {
+    const Scene *scene;
+    uint8_t *patterns, *normals, *textures;
+} Askers;
+
+static bool pigment_asks(const Askers *askers, const PatternedPigment *record)
+{
+    const PigmentEntry *entries = askers->scene->pigment_entries.items;
+    bool asks = record->pattern.flags & PATTERN_ON_SURFACE;
+    for (uint32_t at = record->entries; !asks && at != RECORD_NONE; at = entries[at].next) {
+        asks = entries[at].pigment.pattern != RECORD_NONE && askers->patterns[entries[at].pigment.pattern];
+    }
+    return asks;
+}
+
+static bool normal_asks(const Askers *askers, const Normal *record)
+{
+    const NormalEntry *entries = askers->scene->normal_entries.items;
+    bool asks = record->pattern.flags & PATTERN_ON_SURFACE;
+    for (uint32_t at = record->entries; !asks && at != RECORD_NONE; at = entries[at].next) {
+        asks = askers->normals[entries[at].normal];
+    }
+    return asks;
+}
+
+static bool texture_asks(const Askers *askers, const Texture *record)
+{
+    const TextureEntry *entries = askers->scene->texture_entries.items;
+    uint32_t pattern = record->pigment.pattern;
+    bool asks = (record->pattern.flags & PATTERN_ON_SURFACE) || (pattern != RECORD_NONE && askers->patterns[pattern]) ||
+                (record->normal != RECORD_NONE && askers->normals[record->normal]) ||
+                (record->below != RECORD_NONE && askers->textures[record->below]);
+    for (uint32_t at = record->entries; !asks && at != RECORD_NONE; at = entries[at].next) {
+        asks = askers->textures[entries[at].texture];
+    }
+    return asks;
+}
+
+static bool is_on_surface(const Pattern *pattern)
+{
+    return pattern->flags & PATTERN_ON_SURFACE;
+}
+
+static bool find_on_surface(TextureTable *table)
+{
+    const Scene *scene = table->scene;
+    if (!any_pattern(scene, is_on_surface)) {
+        return true;
+    }
+    Askers askers = {scene, calloc(scene->patterns.count + 1, 1), calloc(scene->normals.count + 1, 1),
+                     calloc(scene->textures.count + 1, 1)};
+    bool has_memory = askers.patterns && askers.normals && askers.textures;
+    for (size_t i = 0; has_memory && i < scene->patterns.count; i++) {
+        askers.patterns[i] = pigment_asks(&askers, &scene->patterns.items[i]);
+    }
+    for (size_t i = 0; has_memory && i < scene->normals.count; i++) {
+        askers.normals[i] = normal_asks(&askers, &scene->normals.items[i]);
+    }
+    for (size_t i = 0; has_memory && i < scene->textures.count; i++) {
+        askers.textures[i] = texture_asks(&askers, &scene->textures.items[i]);
+    }
+    free(askers.patterns);
+    free(askers.normals);
+    table->on_surface = askers.textures;
+    return has_memory;
+}
+
 #define ALONG_RECORDS(list, type, member)                                                                              \
     (&(AlongRecords){(list).items, (list).count, sizeof(type), offsetof(type, member)})
 
@@ -163,6 +239,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     for (size_t i = 0; i < scene->warps.count; i++) {
         table->warp_back[i] = way_back(&scene->warps.items[i].to_outside);
     }
+    table->faces = any_pattern(scene, asks_surface);
     table->goes_abreast = any_pattern(scene, pattern_goes_abreast);
     for (size_t i = 0; i < scene->patterns.count; i++) {
         table->to_pattern[i] = way_back(&scene->patterns.items[i].to_world);
@@ -173,6 +250,10 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     }
     for (size_t i = 0; i < scene->normals.count; i++) {
         table->normal_to_pattern[i] = way_back(&scene->normals.items[i].to_world);
+    }
+    if (!find_on_surface(table)) {
+        texture_table_fini(table);
+        return false;
     }
     if (scene->formula_host) {
         formula_paint(scene->formula_host, &table->source);
@@ -197,6 +278,7 @@ void texture_table_fini(TextureTable *table)
     free(table->waves);
     free(table->to_pattern);
     free(table->opaque);
+    free(table->on_surface);
     free(table->texture_to_pattern);
     free(table->normal_to_pattern);
     free(table->warp_back);
@@ -232,12 +314,12 @@ static Rgbft blend(Rgbft a, double share, Rgbft b)
 }
 
 // All entries at once; their values are weights. In single precision, too.
-static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point)
+static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point, const Vec3 *uv)
 {
     const PigmentEntry *entries = table->scene->pigment_entries.items;
     float sum[5] = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F}, weights = 0.0F;
     for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
-        Rgbft colour = texture_pigment(table, &entries[at].pigment, point);
+        Rgbft colour = texture_pigment_on(table, &entries[at].pigment, point, uv);
         float weight = (float)entries[at].at;
         weights += weight;
         sum[0] += weight * (float)colour.red;
@@ -251,18 +333,20 @@ static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point)
 }
 
 // What a pattern's map has for a value, at a point in its space.
-static Rgbft mapped(const TextureTable *table, uint32_t index, Vec3 point, double value)
+static Rgbft mapped(const TextureTable *table, uint32_t index, Vec3 point, const Vec3 *uv, double value)
 {
     const PigmentEntry *entries = table->scene->pigment_entries.items;
     AlongPlace place = along_find(&table->pattern_lists[index], value);
-    Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
-    return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
-                             : low;
+    Rgbft low = texture_pigment_on(table, &entries[place.low].pigment, point, uv);
+    return place.share > 0.0
+               ? blend(low, place.share, texture_pigment_on(table, &entries[place.high].pigment, point, uv))
+               : low;
 }
 
-static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
+static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer, const Vec3 *uv)
 {
     const PatternedPigment *record = &table->scene->patterns.items[index];
+    outer = texture_space(&record->pattern, outer, uv);
     // Where turbulence moves a point, the entries of the map see it moved, too.
     Vec3 point = pattern_moved(&record->pattern, &table->source, transform_point(&table->to_pattern[index], outer));
     PatternForm form = pattern_info((PatternType)record->pattern.type)->form;
@@ -270,14 +354,14 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
         return image_colour(&table->images[record->pattern.image], point);
     }
     if (form == PATTERN_OF_ALL) {
-        return average(table, record->entries, point);
+        return average(table, record->entries, point, uv);
     }
-    return mapped(table, index, point, pattern_value_moved(&record->pattern, &table->source, point));
+    return mapped(table, index, point, uv, pattern_value_moved(&record->pattern, &table->source, point));
 }
 
-Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
+Rgbft texture_pigment_on(const TextureTable *table, const Pigment *pigment, Vec3 point, const Vec3 *uv)
 {
-    return pigment->pattern == RECORD_NONE ? pigment_colour(pigment) : patterned(table, pigment->pattern, point);
+    return pigment->pattern == RECORD_NONE ? pigment_colour(pigment) : patterned(table, pigment->pattern, point, uv);
 }
 
 bool texture_goes_abreast(const TextureTable *table, const Pigment *pigment)
@@ -298,7 +382,7 @@ void texture_pigments(const TextureTable *table, const Pigment *pigment, unsigne
     }
     pattern_values_moved(pattern, &table->source, count, moved, values);
     for (unsigned i = 0; i < count; i++) {
-        colours[i] = mapped(table, pigment->pattern, moved[i], values[i]);
+        colours[i] = mapped(table, pigment->pattern, moved[i], NULL, values[i]);
     }
 }
 
@@ -316,6 +400,9 @@ typedef struct Walk {
     TextureVisit visit;
     void *client;
     TextureThrough through;
+    Facing *facing; // of the whole surface; NULL: no pattern asks for it
+    Vec3 *seen;     // not NULL then: the normal that the last pigment saw
+    bool is_shadow;
 } Walk;
 
 static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above);
@@ -380,12 +467,22 @@ static void walk_average(Walk *walk, uint32_t first, const TexturePlace *place, 
     }
 }
 
+static double facing_value(const Walk *walk, const Pattern *pattern, Vec3 moved)
+{
+    Vec3 whole = walk->facing->normal;
+    walk->facing->normal = *walk->seen;
+    double value = pattern_value_moved(pattern, &walk->table->source, moved);
+    walk->facing->normal = whole;
+    return value;
+}
+
 static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, double part, Rgb above)
 {
     const Texture *texture = &walk->table->scene->textures.items[index];
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
-    Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer->point);
-    TexturePlace here = {pattern_moved(&texture->pattern, &walk->table->source, point), index, outer};
+    Vec3 space = texture_space(&texture->pattern, outer->point, outer->uv);
+    Vec3 point = transform_point(&walk->table->texture_to_pattern[index], space);
+    TexturePlace here = {pattern_moved(&texture->pattern, &walk->table->source, point), index, outer, outer->uv};
     if (texture_is_of_fields(texture)) {
         walk_fields(walk, texture, &here, part, above);
         return;
@@ -394,12 +491,33 @@ static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, 
         (texture_is_of_corners(texture) ? walk_corners : walk_average)(walk, texture->entries, &here, part, above);
         return;
     }
-    AlongPlace place = along_find(&walk->table->texture_lists[index],
-                                  pattern_value_moved(&texture->pattern, &walk->table->source, here.point));
-    walk_layers(walk, entries[place.low].texture, &here, (1.0 - place.share) * part, above);
-    if (place.share > 0.0) {
+    double value = RT_UNLIKELY(walk->facing) ? facing_value(walk, &texture->pattern, here.point)
+                                             : pattern_value_moved(&texture->pattern, &walk->table->source, here.point);
+    AlongPlace place = along_find(&walk->table->texture_lists[index], value);
+    bool is_turned = walk->facing && place.share > 0.0; // then the order counts
+    if (is_turned) {
         walk_layers(walk, entries[place.high].texture, &here, place.share * part, above);
     }
+    walk_layers(walk, entries[place.low].texture, &here, (1.0 - place.share) * part, above);
+    if (place.share > 0.0 && !is_turned) {
+        walk_layers(walk, entries[place.high].texture, &here, place.share * part, above);
+    }
+}
+
+// A layer's pigment sees the surface as the layer's own bumps turn it, in the space of the map that the layer is in. A
+// pattern of textures sees it as the pigment before it did. All else sees it as it is in the scene, and so do pigments in
+// shadows. Measured.
+static Rgbft facing_pigment(const Walk *walk, const Texture *texture, const TexturePlace *place)
+{
+    Vec3 whole = walk->facing->normal;
+    *walk->seen = whole;
+    if (texture->normal != RECORD_NONE && !walk->is_shadow) {
+        TextureLayer layer = {.normal = texture->normal, .place = place, .table = walk->table};
+        *walk->seen = walk->facing->normal = texture_normal_inside(&layer, whole);
+    }
+    Rgbft pigment = texture_pigment_on(walk->table, &texture->pigment, place->point, place->uv);
+    walk->facing->normal = whole;
+    return pigment;
 }
 
 static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above)
@@ -410,8 +528,11 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
             walk_pattern(walk, index, place, part, above); // the lowest one, by the evaluator's rule
             return;
         }
-        Rgbft pigment = texture_pigment(walk->table, &texture->pigment, place->point);
-        TextureLayer layer = {pigment, texture->finish, texture->normal, index == top, place, part, above};
+        Rgbft pigment = RT_UNLIKELY(walk->facing)
+                            ? facing_pigment(walk, texture, place)
+                            : texture_pigment_on(walk->table, &texture->pigment, place->point, place->uv);
+        TextureLayer layer = {pigment, texture->finish, texture->normal, index == top,
+                              place,   part,            above,           walk->table};
         Rgb left = walk->visit ? walk->visit(walk->client, &layer) : rgb_grey(1.0);
         above = rgb_mul(rgb_mul(above, left), texture_pigment_through(pigment));
         if (rgb_is_black(above) || fabs(rgb_luminance(above)) < walk->cut) {
@@ -423,11 +544,32 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
     walk->through.weight = greater_of(walk->through.weight, rgb_max_abs(above));
 }
 
-TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
-                            void *client)
+static TextureThrough walk_from(Walk *walk, uint32_t texture, Vec3 point, const Vec3 *uv)
 {
-    Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0, 0.0}};
-    TexturePlace place = {vec3_scale(table->scale, point), RECORD_NONE, NULL};
-    walk_layers(&walk, texture, &place, 1.0, rgb_grey(1.0));
-    return walk.through;
+    TexturePlace place = {point, RECORD_NONE, NULL, uv};
+    walk_layers(walk, texture, &place, 1.0, rgb_grey(1.0));
+    return walk->through;
+}
+
+// The same by a table that knows the surface.
+static TextureThrough walk_facing(Walk *walk, uint32_t texture, TextureSight sight)
+{
+    TextureTable table = *walk->table;
+    Facing facing = {vec3_scale(table.scale, sight.point), *sight.normal, *sight.direction};
+    Vec3 seen = facing.normal;
+    table.source.table = &table;
+    table.source.facing = &facing;
+    walk->table = &table;
+    walk->facing = &facing;
+    walk->seen = &seen;
+    walk->is_shadow = sight.is_shadow;
+    return walk_from(walk, texture, facing.point, sight.uv);
+}
+
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, TextureSight sight, double cut,
+                            TextureVisit visit, void *client)
+{
+    Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0, 0.0}, NULL, NULL, false};
+    return RT_UNLIKELY(table->faces) ? walk_facing(&walk, texture, sight)
+                                     : walk_from(&walk, texture, vec3_scale(table->scale, sight.point), sight.uv);
 }

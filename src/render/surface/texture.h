@@ -28,12 +28,14 @@ struct TextureTable {
     bool goes_abreast;             // texture_goes_abreast of some pigment
     Transform *to_pattern;         // for each of the scene's patterns
     uint8_t *opaque;               // likewise: what texture_is_opaque knows of it
+    uint8_t *on_surface;           // for each of its textures: 1 if it asks for surface coordinates; NULL: none does
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern
     PreparedImage *images;         // for each of its image maps
     Transform *normal_to_pattern;  // for each of its normals
     const AlongList *pattern_lists, *texture_lists, *normal_lists, *slope_lists; // for each of these, too
     Arena along;                                                                 // what these refer to
     Transform *warp_back; // for each of its warps
+    bool faces;           // some pattern asks how a surface lies
 };
 
 // Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what
@@ -47,8 +49,19 @@ size_t texture_table_bytes(const TextureTable *table);
 // Whether some picture lets light through.
 bool texture_table_has_transparent_image(const TextureTable *table);
 
-// The colour of a pigment at a point in the scene's lengths.
-Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point);
+// Whether a texture asks for surface coordinates.
+static inline bool texture_is_on_surface(const TextureTable *table, uint32_t texture)
+{
+    return RT_UNLIKELY(table->on_surface != NULL) && table->on_surface[texture];
+}
+
+// The colour of a pigment at a point in the scene's lengths; `uv` are the surface coordinates there, which may be NULL
+// where it does not ask for any.
+Rgbft texture_pigment_on(const TextureTable *table, const Pigment *pigment, Vec3 point, const Vec3 *uv);
+static inline Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
+{
+    return texture_pigment_on(table, pigment, point, NULL);
+}
 // Whether texture_pigments takes less time for a pigment than one point after another.
 bool texture_goes_abreast(const TextureTable *table, const Pigment *pigment);
 // The colours of such a pigment at some points, TEXTURE_ABREAST at most.
@@ -67,6 +80,7 @@ struct TexturePlace {
     Vec3 point;
     uint32_t texture;          // the one with the pattern; RECORD_NONE: the scene's own lengths
     const TexturePlace *outer; // the same point in the space around it; NULL: there is none
+    const Vec3 *uv;            // the surface coordinates there, as of texture_walk
 };
 
 // What a pigment multiplies light with that goes through it.
@@ -91,6 +105,7 @@ typedef struct TextureLayer {
     const TexturePlace *place;
     double part; // of the texture in a map, 1 without a map
     Rgb above;   // what the layers above let through
+    const TextureTable *table; // which knows how the surface lies
 } TextureLayer;
 
 // Returns the share of light, by colour, that continues to what is below, beside what the pigment lets through.
@@ -104,22 +119,35 @@ typedef struct TextureThrough {
     double weight;
 } TextureThrough;
 
-// Calls `visit`, unless it is NULL, for each surface seen at a point of prepared space, from top to bottom. Light that
-// is darker than `cut` in grey does not continue to the layer below or out of the last one.
-TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
-                            void *client);
+// How a point of a surface is seen: the point, in prepared space; the surface coordinates there, which may be NULL
+// unless texture_is_on_surface; the normal, of length 1 and turned to where the ray comes from; the ray's direction.
+typedef struct TextureSight {
+    Vec3 point;
+    const Vec3 *uv, *normal, *direction;
+    bool is_shadow; // light goes through
+} TextureSight;
 
-// A texture that is one layer without bumps; NULL where there is more to walk.
+// Calls `visit`, unless it is NULL, for each surface seen at a point, from top to bottom. Light that is darker than
+// `cut` in grey does not continue to the layer below or out of the last one.
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, TextureSight sight, double cut,
+                            TextureVisit visit, void *client);
+
+// A texture that is one layer without bumps, and asks for nothing but the point; NULL where there is more to walk.
 static inline const Texture *texture_single(const TextureTable *table, uint32_t index)
 {
     const Texture *texture = &table->scene->textures.items[index];
     bool is_single =
-        texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE;
-    return is_single ? texture : NULL;
+        texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE &&
+        !table->faces;
+    return is_single && !texture_is_on_surface(table, index) ? texture : NULL;
 }
 
 // The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1.
 // In normal.c.
-Vec3 texture_normal(const TextureTable *table, const TextureLayer *layer, Vec3 normal);
+Vec3 texture_normal(const TextureLayer *layer, Vec3 normal);
+// The same in the space of the pattern of textures around the layer, if there is one.
+Vec3 texture_normal_inside(const TextureLayer *layer, Vec3 normal);
+// What one of the scene's normals makes of a direction of length 1 at a point in the scene's lengths.
+Vec3 texture_bent(const TextureTable *table, uint32_t normal, Vec3 point, Vec3 direction);
 
 #endif
