@@ -103,11 +103,10 @@ static double inner_known(const Constants *constants, const Round *round, size_t
 static void constants_of(const Constants *constants, const Round *round, size_t begin, double *own, double *copy)
 {
     const PixelRecord *records = &round->film->records[begin];
-    bool has_known = round->small || round->share;
     for (int x = 0; x < round->film->width; x++) {
         const PixelRecord *record = &records[x];
         double inner = (double)record->inner;
-        if (has_known) {
+        if (round->small || (round->share && record->count > 1)) {
             double known = inner_known(constants, round, begin + (size_t)x, record->count);
             inner = inner > known ? inner : known;
         }

@@ -39,6 +39,12 @@ static inline bool bit_is_set(const uint64_t *set, uint32_t place)
     return set[place / 64] >> (place % 64) & 1;
 }
 
+// The same while others may set bits.
+static inline bool is_set_now(const uint64_t *set, uint32_t place)
+{
+    return __atomic_load_n(&set[place / 64], __ATOMIC_RELAXED) >> (place % 64) & 1;
+}
+
 static uint32_t place_of(const Small *small, const SmallEntry *entry)
 {
     return small_place(small, entry->shape);
@@ -296,7 +302,7 @@ static void pair_judge(const Round *round, const LookBatch *batch, int i)
             has_one = true;
             (void)camera_place_ray(&small->prepared->camera, &batch->places, i + k, &ray);
             uint32_t place = place_of(small, entry);
-            if (small_is_shown(small, entry->shape, ray)) {
+            if (!is_set_now(small->seen, place) && small_is_shown(small, entry->shape, ray)) {
                 __atomic_fetch_or(&small->seen[place / 64], UINT64_C(1) << (place % 64), __ATOMIC_RELAXED);
             }
         }

@@ -35,18 +35,21 @@ static inline double spread_of(const SampleSums *parts, Rgb mean, const Rgb *slo
 }
 
 // Puts the means by shares for those of new samples, and their sums for the sums of halves; returns the mean of all.
-static Rgb sums_weight(const ChosenPixel *chosen, bool has_before, SampleSums *parts, Rgb *before, Rgb *mean)
+static Rgb sums_weight(const ChosenPixel *chosen, bool has_before, bool has_spread, SampleSums *parts, Rgb *before,
+                       Rgb *mean)
 {
     ShareMeans means;
-    share_close(parts->shares, has_before, chosen->is_judged, &means);
+    share_close(parts->shares, has_before, chosen->is_judged, has_spread, &means);
     double count = chosen->count, first = (chosen->count + 1) / 2;
     if (!chosen->starts) {
         parts->sum[0] = rgb_scale(first, means.halves[0]);
         parts->sum[1] = rgb_scale(count - first, means.halves[1]);
     }
     // So that spread_of is what samples spread by within the strata.
-    Rgb spread_out = rgb_add_scaled(rgb_mul(means.fresh, means.fresh), -1.0, means.between);
-    parts->squares = rgb_add_scaled(parts->squares, count, spread_out);
+    if (has_spread) {
+        Rgb spread_out = rgb_add_scaled(rgb_mul(means.fresh, means.fresh), -1.0, means.between);
+        parts->squares = rgb_add_scaled(parts->squares, count, spread_out);
+    }
     *before = means.before;
     *mean = means.fresh;
     return means.all;
@@ -65,7 +68,7 @@ static void pixel_start(const Round *round, const ChosenPixel *chosen, SampleSum
     Rgb halves[2] = {rgb_scale(0.5, rgb_add(sum[0], sum[1])), rgb_scale(0.5, rgb_add(sum[2], sum[3]))};
     Rgb mean = rgb_scale(0.5, rgb_add(halves[0], halves[1])), none;
     if (parts->shares) {
-        (void)sums_weight(chosen, false, parts, &none, &mean);
+        (void)sums_weight(chosen, false, true, parts, &none, &mean);
     }
     value_put(value, mean);
     const Rgb *slope = slope_at(round, value, &place);
@@ -155,7 +158,7 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
     Rgb old = rgb(value[0], value[1], value[2]);
     Rgb all = rgb_add(rgb_scale(shares->of_old, old), rgb_scale(shares->of_mean, mean));
     if (parts->shares) {
-        all = sums_weight(chosen, shares->before > 0, parts, &old, &mean);
+        all = sums_weight(chosen, shares->before > 0, shares->is_adaptive, parts, &old, &mean);
     }
     value_put(value, all);
     record->count += chosen->count;

@@ -342,10 +342,29 @@ static void group_sums(const ShareSums *sums, bool has_before, GroupSums *by_gro
     }
 }
 
+// The mean of some parts of a pixel's samples where all strata are one.
+static Rgb mean_of_all(const GroupSums *by_group, int first, int last, Rgb *between)
+{
+    double taken = by_group->taken[first][0];
+    Rgb sum = by_group->sums[first][0];
+    for (int part = first + 1; part <= last; part++) {
+        taken += by_group->taken[part][0];
+        sum = rgb_add(sum, by_group->sums[part][0]);
+    }
+    Rgb own = rgb_scale(1.0 / taken, sum), mean = rgb_scale(by_group->groups[0].area, own);
+    if (between) {
+        *between = rgb_mul(own, own);
+    }
+    return mean;
+}
+
 // The mean of some parts of a pixel's samples, of which there is one at least, from `first` to `last`. Where a group
 // has none all are one. `between`: NULL, or where the mean square of the groups' means goes.
 static Rgb mean_of(const GroupSums *by_group, int first, int last, Rgb *between)
 {
+    if (by_group->count == 1) {
+        return mean_of_all(by_group, first, last, between);
+    }
     double all = 0.0, taken[STRATA_MOST];
     Rgb sums[STRATA_MOST], mean = rgb_grey(0.0);
     bool has_all = true;
@@ -390,19 +409,20 @@ Rgb share_mean(const ShareSums *sums)
     return mean_of(&by_group, PART_FIRST, PART_SECOND, NULL);
 }
 
-void share_close(ShareSums *sums, bool has_before, bool is_judged, ShareMeans *means)
+void share_close(ShareSums *sums, bool has_before, bool is_judged, bool has_between, ShareMeans *means)
 {
     GroupSums by_group;
+    Rgb *between = has_between ? &means->between : NULL;
     uint32_t second = 0;
     for (int i = 0; i < sums->count; i++) {
         second += sums->taken[1][i];
     }
     group_sums(sums, has_before, &by_group);
     *means = (ShareMeans){.before = rgb_grey(0.0)};
-    means->all = mean_of(&by_group, PART_FIRST, has_before ? PART_BEFORE : PART_SECOND, &means->between);
+    means->all = mean_of(&by_group, PART_FIRST, has_before ? PART_BEFORE : PART_SECOND, has_before ? NULL : between);
     if (is_judged) {
         means->before = has_before ? mean_of(&by_group, PART_BEFORE, PART_BEFORE, NULL) : means->before;
-        means->fresh = has_before ? mean_of(&by_group, PART_FIRST, PART_SECOND, &means->between) : means->all;
+        means->fresh = has_before ? mean_of(&by_group, PART_FIRST, PART_SECOND, between) : means->all;
         means->halves[0] = mean_of(&by_group, PART_FIRST, PART_FIRST, NULL);
         means->halves[1] = second > 0 ? mean_of(&by_group, PART_SECOND, PART_SECOND, NULL) : rgb_grey(0.0);
     }
@@ -524,6 +544,10 @@ static void contrasts_each(const Round *round, ContrastSums *sums,
                            void (*block)(const Round *round, Tile block, ContrastSums *sums))
 {
     const Film *film = round->film;
+    if (!round->judges_some) {
+        block(round, (Tile){0, 0, film->width, film->height}, sums);
+        return;
+    }
     for (int top = 0, bottom; top < film->height; top = bottom) {
         bottom = round_block_end(top, film->top, film->height);
         for (int left = 0, right; left < film->width; left = right) {

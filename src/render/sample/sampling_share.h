@@ -96,7 +96,8 @@ static inline double share_variance(const Share *share, size_t pixel, double cou
 // The mean of new samples.
 Rgb share_mean(const ShareSums *sums);
 
-// Means; of samples that are not judged, that of all only. Then the new samples are in the strata.
-void share_close(ShareSums *sums, bool has_before, bool is_judged, ShareMeans *means);
+// Means; of samples that are not judged, that of all only; `between` if it is asked for. Then the new samples are in
+// the strata.
+void share_close(ShareSums *sums, bool has_before, bool is_judged, bool has_between, ShareMeans *means);
 
 #endif
