@@ -232,7 +232,9 @@ static double value_at(const Turn *turn, const Arc *arc, Half half, double s, do
     return a - dy * w;
 }
 
-// Between 0 and 1, where the signs differ, from `s` on; `is_low_below`: it is below 0, or for q not above it, at 0.
+// Between 0 and 1, where the signs differ, from `s` on; `is_low_below`: it is below 0, or for q not above it, at 0. A step
+// of 2^-44 leaves what rounding of the values does, which no more steps make less: signs that go by that would only have
+// the part halved down to there once more.
 static double root_between(const Turn *turn, const Arc *arc, Half half, bool is_low_below, double s)
 {
     double low = 0.0, high = 1.0, before = 1.0;
@@ -240,8 +242,8 @@ static double root_between(const Turn *turn, const Arc *arc, Half half, bool is_
         double slope, value = value_at(turn, arc, half, s, &slope), next = s - value / slope, change = fabs(next - s);
         bool is_below = half == HALF_EITHER ? value <= 0.0 : value < 0.0;
         *(is_below == is_low_below ? &low : &high) = s;
-        if (value == 0.0 || change <= 0x1p-53 * s) {
-            return s;
+        if (value == 0.0 || change <= 0x1p-44 * s) {
+            return next > low && next < high ? next : s;
         }
         bool is_slow = !(next > low && next < high) || !(2.0 * change < before);
         before = is_slow ? high - low : change;

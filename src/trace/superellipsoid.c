@@ -177,7 +177,7 @@ static double place_before(const Line *line, double t, double end, double way)
 {
     for (int i = 0; i < STEPS_MOST && line->p_times > 0; i++) {
         double slope, value = power_at(line, t, &slope), step = value / (-way * slope);
-        if (!(value > 0x1p-16) || !(way * slope < 0.0) || !(step <= way * (end - t))) {
+        if (!(value > 0x1p-30) || !(way * slope < 0.0) || !(step <= way * (end - t))) {
             break;
         }
         t += way * step;
@@ -201,8 +201,8 @@ static bool first_root(const Line *line, double t, double end, double way, doubl
         if (!(slope < 0.0) || !(step <= way * (end - t))) {
             return false;
         }
-        if (step <= 0x1p-52 * fabs(t)) {
-            *root = t;
+        if (step <= 0x1p-44 * fabs(t)) { // what is left is what rounding of the size does
+            *root = t + way * step;
             return true;
         }
         t += way * step;
