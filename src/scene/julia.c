@@ -1,6 +1,6 @@
-// Orbits, and how far steps may go, in the manner of the distance that J. Hart, D. Sandin and L. Kauffman estimate ("Ray
-// tracing deterministic 3-D fractals", SIGGRAPH 1989): log |h|² / n over the product of n |h| along the orbit, for h^n.
-// Measured.
+// Orbits, and how far steps may go, in the manner of the distance that J. Hart, D. Sandin and L. Kauffman estimate
+// ("Ray tracing deterministic 3-D fractals", SIGGRAPH 1989): log |h|² / n over the product of n |h| along the orbit,
+// for h^n. Measured.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/julia.h"

@@ -1,5 +1,5 @@
-// Julia fractals: points whose orbit h, f(h) + p, f(f(h) + p) + p, … does not leave a ball for as many steps as are asked
-// for, h being the point in a space of four dimensions that `slice` cuts.
+// Julia fractals: points whose orbit h, f(h) + p, f(f(h) + p) + p, … does not leave a ball for as many steps as are
+// asked for, h being the point in a space of four dimensions that `slice` cuts.
 //
 // A part's list of numbers is the structure Julia. The algebra is that of quaternions, f(h) is h² or h³. What bounds a
 // fractal is a ball of radius 1 + |p|, 2 at most, which orbits must not leave, either. Measured. Knows nothing of rays.
@@ -16,8 +16,8 @@ typedef struct Julia {
     double p[4], slice[4], distance;
     double power; // 2 or 3
     double step_count, precision;
-    double radius;  // of its ball
-    double fourth;  // of a point the fourth coordinate is that less rise[]·(x, y, z)
+    double radius; // of its ball
+    double fourth; // of a point the fourth coordinate is that less rise[]·(x, y, z)
     double rise[3];
 } Julia;
 

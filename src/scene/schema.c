@@ -404,11 +404,11 @@ static const SchemaProperty julia_properties[] = {
     {"sqr", TYPE_ACTION, ACTION_JULIA, .is_leading = true, .doc = "f(h) = h²"},
     {"cube", TYPE_ACTION, ACTION_JULIA, .is_leading = true, .doc = "f(h) = h³"},
     {"max_iteration", TYPE_INTEGER, AT(JuliaDesc, step_count), .range = {RANGE_FAULT, false, 1.0, 1e6}, .is_leading = true,
-     .doc = "how many points of an orbit must lie in its ball"},
+     .doc = "how many points of an orbit lie in the ball"},
     {"precision", TYPE_NUMBER, AT(JuliaDesc, precision), .is_leading = true,
-     .doc = "a ray is looked at in steps of 1 / precision, at most 1"},
+     .doc = "rays go by steps of 1 / precision, at most 1"},
     {"slice", TYPE_ACTION, ACTION_JULIA, .is_leading = true,
-     .doc = "normal of 4 numbers, distance: what of the four dimensions is seen; at first `<0, 0, 0, 1>, 0`"},
+     .doc = "normal of 4 numbers, distance; at first `<0, 0, 0, 1>, 0`"},
 };
 
 static const JuliaDesc julia_defaults = {

@@ -1,5 +1,6 @@
-// A line through a fractal's ball is walked from one end to the other, as POV-Ray does it: by 1 / precision, or as far as
-// the distance is estimated to be where that is more; where a step has changed sides, the crossing is found by halving.
+// A line through a fractal's ball is walked from one end to the other, as POV-Ray does it: by 1 / precision, or as far
+// as the distance is estimated to be where that is more; where a step has changed sides, the crossing is found by
+// halving.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/julia.h"
