@@ -404,6 +404,7 @@ lang_cases = \
   %D%/lang/seeded_faults.test \
   %D%/lang/settings.test \
   %D%/lang/isosurface.test \
+  %D%/lang/julia.test \
   %D%/lang/shapes.test \
   %D%/lang/sweep.test \
   %D%/lang/sky.test \

@@ -29,27 +29,28 @@ syn keyword rtlangWord ambient_light angle aperture area_light assumed_gamma ave
 syn keyword rtlangWord black_hole blob blur_samples bounded_by box boxed bozo brick brick_size brilliance
 syn keyword rtlangWord bump_size bumps camera caustics cells charset checker circular clipped_by color_map
 syn keyword rtlangWord colour_map component cone confidence conserve_energy contained_by control0 control1
-syn keyword rtlangWord crackle crand cubic cubic_wave cylinder cylindrical dents difference diffuse direction
-syn keyword rtlangWord disc dist_exp distance emission evaluate exponent exr exterior fade_color fade_colour
-syn keyword rtlangWord fade_distance fade_power falloff finish fisheye flip focal_point fog fog_alt fog_offset
-syn keyword rtlangWord fog_type form frequency fresnel gamma global_settings gradient granite hdr height_field
-syn keyword rtlangWord hexagon hf_gray_16 hierarchy hollow image_map inside_vector interior interpolate
-syn keyword rtlangWord intersection inverse ior irid irid_wavelength isosurface jitter jpeg julia lambda lathe
-syn keyword rtlangWord leopard light_source location look_at looks_like magnet major_radius mandel map_type
-syn keyword rtlangWord marble material matrix max_gradient max_intersections max_trace max_trace_level
-syn keyword rtlangWord media_attenuation media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar
-syn keyword rtlangWord no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator normal
-syn keyword rtlangWord normal_map number_of_waves object octaves offset omega omnimax once onion open orient
-syn keyword rtlangWord orientation orthographic panoramic parallel pattern perspective pgm phase phong
-syn keyword rtlangWord phong_size pigment pigment_map pigment_pattern planar plane png point_at poly poly_wave
-syn keyword rtlangWord polygon ppm premultiplied prism quadric quartic quick_color quick_colour quilted radial
-syn keyword rtlangWord radius ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
-syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope_map smooth
-syn keyword rtlangWord smooth_triangle solid sor specular sphere sphere_sweep spherical spiral1 spiral2
-syn keyword rtlangWord split_union spotlight spotted strength sturm superellipsoid text texture texture_map
-syn keyword rtlangWord tga thickness threshold tiff tightness tiles tolerance toroidal torus transform
-syn keyword rtlangWord translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union up
-syn keyword rtlangWord use_color use_colour variance warp water_level waves wood wrinkles
+syn keyword rtlangWord crackle crand cube cubic cubic_wave cylinder cylindrical dents difference diffuse
+syn keyword rtlangWord direction disc dist_exp distance emission evaluate exponent exr exterior fade_color
+syn keyword rtlangWord fade_colour fade_distance fade_power falloff finish fisheye flip focal_point fog
+syn keyword rtlangWord fog_alt fog_offset fog_type form frequency fresnel gamma global_settings gradient
+syn keyword rtlangWord granite hdr height_field hexagon hf_gray_16 hierarchy hollow image_map inside_vector
+syn keyword rtlangWord interior interpolate intersection inverse ior irid irid_wavelength isosurface jitter
+syn keyword rtlangWord jpeg julia julia_fractal lambda lathe leopard light_source location look_at looks_like
+syn keyword rtlangWord magnet major_radius mandel map_type marble material matrix max_gradient
+syn keyword rtlangWord max_intersections max_iteration max_trace max_trace_level media_attenuation
+syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
+syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
+syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
+syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
+syn keyword rtlangWord pigment_map pigment_pattern planar plane png point_at poly poly_wave polygon ppm
+syn keyword rtlangWord precision premultiplied prism quadric quartic quaternion quick_color quick_colour
+syn keyword rtlangWord quilted radial radius ramp_wave reflection reflection_exponent refraction repeat right
+syn keyword rtlangWord ripples rotate roughness scale scallop_wave shadowless sine_wave sky sky_sphere slice
+syn keyword rtlangWord slope_map smooth smooth_triangle solid sor specular sphere sphere_sweep spherical
+syn keyword rtlangWord spiral1 spiral2 split_union spotlight spotted sqr strength sturm superellipsoid text
+syn keyword rtlangWord texture texture_map tga thickness threshold tiff tightness tiles tolerance toroidal
+syn keyword rtlangWord torus transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle
+syn keyword rtlangWord union up use_color use_colour variance warp water_level waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

@@ -296,6 +296,13 @@ typedef struct SweepDesc {
     double tolerance;
 } SweepDesc;
 
+typedef struct JuliaDesc {
+    ObjectPart part;
+    double p[4], slice[4], distance, precision;
+    int power, step_count;
+    Numbers list; // scene/julia.h
+} JuliaDesc;
+
 typedef struct PolygonDesc {
     ObjectPart part;
     Numbers outline; // within the frame
@@ -454,6 +461,7 @@ typedef union Desc {
     SorDesc sor;
     SuperellipsoidDesc superellipsoid;
     SweepDesc sweep;
+    JuliaDesc julia;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     MeshDesc mesh;

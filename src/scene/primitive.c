@@ -8,6 +8,7 @@
 #include "math/length.h"
 #include "scene/blob.h"
 #include "scene/isosurface.h"
+#include "scene/julia.h"
 #include "scene/dump.h"
 #include "scene/part.h"
 #include "scene/polynomial.h"
@@ -515,6 +516,32 @@ static void sweep_dump(const Part *part, TextBuffer *out)
     }
 }
 
+// ---- Julia fractal
+
+static bool julia_part_holds(const Part *part, Vec3 p)
+{
+    double reach;
+    return julia_holds(julia_of(part->list.items), p, &reach);
+}
+
+// Alone it is asked for the first surface only.
+static uint32_t julia_part_intervals(const Part *part)
+{
+    return part->node == NODE_NONE ? 2 : JULIA_INTERVALS_MOST + 2;
+}
+
+static void julia_dump(const Part *part, TextBuffer *out)
+{
+    const Julia *julia = julia_of(part->list.items);
+    dump_numbers(out, julia->p, 4);
+    text_append(out, julia->power > 2.0 ? " quaternion cube" : " quaternion sqr");
+    dump_number(out, " max_iteration ", julia->step_count);
+    dump_number(out, " precision ", julia->precision);
+    text_append(out, " slice ");
+    dump_numbers(out, julia->slice, 4);
+    dump_number(out, ", ", julia->distance);
+}
+
 // ---- meshes: they reach as far as their boxes
 
 static bool solid_mesh_holds(const Part *part, Vec3 p)
@@ -715,6 +742,19 @@ static const PrimitiveClass classes[] = {
                     .support = box_support,
                     .holds = sweep_holds,
                     .dump = sweep_dump,
+                    .measure = box_measure},
+    [PART_JULIA] = {.word = "Julia fractal",
+                    .head = "julia_fractal { ",
+                    .family = FAMILY_ISOSURFACE,
+                    .surface = PART_JULIA,
+                    .key_count = 3,
+                    .interval_count = 2,
+                    .interval_most = julia_part_intervals,
+                    .has_list = true,
+                    .is_sized = true,
+                    .support = box_support,
+                    .holds = julia_part_holds,
+                    .dump = julia_dump,
                     .measure = box_measure},
     [PART_ISOSURFACE] = {.word = "isosurface",
                          .head = "isosurface {",

@@ -406,6 +406,20 @@ static const SchemaProperty sweep_properties[] = {
      .doc = "changes nothing: no ray meets again what it leaves"},
 };
 
+static const SchemaProperty julia_properties[] = {
+    {"quaternion", TYPE_ACTION, ACTION_JULIA, .is_leading = true, .doc = "the algebra that there is here"},
+    {"sqr", TYPE_ACTION, ACTION_JULIA, .is_leading = true, .doc = "f(h) = h²"},
+    {"cube", TYPE_ACTION, ACTION_JULIA, .is_leading = true, .doc = "f(h) = h³"},
+    {"max_iteration", TYPE_INTEGER, AT(JuliaDesc, step_count), .range = {RANGE_FAULT, false, 1.0, 1e6}, .is_leading = true,
+     .doc = "how many points of an orbit lie in the ball"},
+    {"precision", TYPE_NUMBER, AT(JuliaDesc, precision), .is_leading = true,
+     .doc = "rays go by steps of 1 / precision, at most 1"},
+    {"slice", TYPE_ACTION, ACTION_JULIA, .is_leading = true,
+     .doc = "normal of 4 numbers, distance; at first `<0, 0, 0, 1>, 0`"},
+};
+
+static const JuliaDesc julia_defaults = {
+    .part = OBJECT_PART, .slice = {0.0, 0.0, 0.0, 1.0}, .precision = 20.0, .power = 2, .step_count = 20};
 static const SweepDesc sweep_defaults = {.part = OBJECT_PART, .size = 1.0};
 static const LatheDesc lathe_defaults = {.part = OBJECT_PART};
 static const SorDesc sor_defaults = {.part = OBJECT_PART};
@@ -994,6 +1008,14 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                            .groups = {LIST(sweep_properties), OBJECT_GROUPS},
                            .doc = "A word for the curve, the number of balls, the middle and radius of each: all that a ball "
                                   "covers."},
+    [KIND_JULIA_FRACTAL] = {.word = "julia_fractal",
+                            .what = "a Julia fractal",
+                            .size = sizeof(JuliaDesc),
+                            .defaults = &julia_defaults,
+                            .is_object = true,
+                            .is_declarable = true,
+                            .groups = {LIST(julia_properties), OBJECT_GROUPS},
+                            .doc = "A parameter p of 4 numbers: points whose orbit h, f(h) + p, … stays in a ball."},
     [KIND_TEXT] = {.word = "text",
                    .what = "a text",
                    .size = sizeof(UnionDesc),
@@ -1271,7 +1293,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 };
 
 static const SchemaUnsupported unsupported[] = {
-    {"julia_fractal", true, NULL, NULL},
     {"light_group", true, "use a `union`", "its lights and shapes"},
     {"media", true, NULL, "smoke, dust and fire, and their light"},
     {"ovus", true, "use a sphere with `scale`", NULL},

@@ -59,6 +59,7 @@ typedef struct Plane {
 //                   to fixed[1]
 //   sweep           what the balls of the list cover (scene/sweep.h), within the box from fixed[0] to fixed[1]; no number
 //                   of theirs is greater than 1, and one is at least 1/2
+//   julia           a Julia fractal (scene/julia.h), within the box from fixed[0] to fixed[1]
 //   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
 typedef enum PartKind {
     PART_SPHERE,
@@ -77,6 +78,7 @@ typedef enum PartKind {
     PART_SOR,
     PART_SUPERELLIPSOID,
     PART_SWEEP,
+    PART_JULIA,
     PART_ISOSURFACE,
     PART_MESH,
     PART_MESH_SOLID,

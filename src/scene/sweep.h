@@ -1,9 +1,9 @@
 // Sphere sweeps: all that a ball covers whose middle and radius follow a curve of cubic or straight segments.
 //
 // A part's list of numbers is: which curve, how many balls the text gave, these, x, y, z and radius of each, then the
-// segments, each with a box, and for each SWEEP_GROUP of them a box. A segment is a polynomial of s from -1/2 to 1/2, in
-// x, y, z and radius. POV-Ray's curves, measured: straight lines from ball to ball; the cubic of Catmull and Rom from
-// the second ball to the last but one; uniform cubic B-splines. Knows nothing of rays.
+// segments, each with a box, and for each SWEEP_GROUP of them a box. A segment is a polynomial of s from -1/2 to 1/2,
+// in x, y, z and radius. POV-Ray's curves, measured: straight lines from ball to ball; the cubic of Catmull and Rom
+// from the second ball to the last but one; uniform cubic B-splines. Knows nothing of rays.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_SWEEP_H

@@ -531,7 +531,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         double down = ldexp(1.0, -exponent), up = ldexp(1.0, exponent);
         for (uint32_t i = 0; i < table->solid_count; i++) {
             table->solids[i] = solid_of(&scene->parts.items[i], exponent, down, up);
-            if (table->solids[i].kind == PART_ISOSURFACE) {
+            if (table->solids[i].kind == PART_ISOSURFACE || table->solids[i].kind == PART_JULIA) {
                 table->solids[i].isosurface.world = &table->isosurfaces;
             }
             work.solids[i] = part_bounds(&scene->parts.items[i], exponent, down);

@@ -12,6 +12,7 @@
 #include "trace/cone.h"
 #include "trace/flat.h"
 #include "trace/isosurface.h"
+#include "trace/julia.h"
 #include "trace/plane.h"
 #include "trace/polynomial.h"
 #include "trace/prism.h"
@@ -486,6 +487,12 @@ const SolidClass solid_classes[PART_KINDS] = {
                     .gradient = sweep_side_gradient,
                     .point = sweep_side_point,
                     .axes = box_axes},
+    [PART_JULIA] = {.intervals = julia_intervals,
+                    .normal = julia_normal,
+                    .gradient = julia_normal,
+                    .point = same_point,
+                    .axes = box_axes,
+                    .turns = true},
     [PART_ISOSURFACE] = {.intervals = isosurface_intervals,
                          .normal = isosurface_normal,
                          .gradient = isosurface_normal,

@@ -33,7 +33,7 @@ typedef struct IsosurfaceWorld {
     const Abandon *abandon; // NULL: no ray is left untraced; not owned
 } IsosurfaceWorld;
 
-// What an isosurface has in the place of fixed[] and a list.
+// What an isosurface, or a Julia fractal, has in the place of fixed[] and a list.
 typedef struct SolidIsosurface {
     Vec3 low, high;
     const double *list;

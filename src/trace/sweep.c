@@ -1,9 +1,9 @@
 // Segments one after the other, each near one by its polynomials; what they cover is put together.
 //
 // Where F has roots is decided by doubles or double words (trace/roots.h). Where an interval ends is found about the
-// middle of the s that have a ball on the line, so that coefficients are as large as the ball is and not as the segment.
-// What is missed or wrong of those s makes an end wrong by its square, for there the end is an extremum; and every ball
-// that is tried covers what it says.
+// middle of the s that have a ball on the line, so that coefficients are as large as the ball is and not as the
+// segment. What is missed or wrong of those s makes an end wrong by its square, for there the end is an extremum; and
+// every ball that is tried covers what it says.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/sweep.h"
@@ -21,10 +21,10 @@ enum {
 };
 
 typedef struct Line {
-    Ray ray;               // its direction is between 1 and 4 long, by a power of two
-    Vec3 near;             // the point of the line that is nearest to 0, but for rounding
-    double t_near;         // where that is
-    double square, scale;  // |d|²; its parameter times `scale` is that of the ray as it came
+    Ray ray;              // its direction is between 1 and 4 long, by a power of two
+    Vec3 near;            // the point of the line that is nearest to 0, but for rounding
+    double t_near;        // where that is
+    double square, scale; // |d|²; its parameter times `scale` is that of the ray as it came
     double inverse[3], margin, start;
 } Line;
 
@@ -94,8 +94,8 @@ static void form_of(const Seen *seen, double *f)
     }
     for (unsigned i = 0; i <= seen->degree; i++) {
         for (unsigned j = i; j <= seen->degree; j++) {
-            double term = seen->line->square * seen->radius[i] * seen->radius[j] -
-                          vec3_dot(seen->cross[i], seen->cross[j]);
+            double term =
+                seen->line->square * seen->radius[i] * seen->radius[j] - vec3_dot(seen->cross[i], seen->cross[j]);
             f[i + j] += i == j ? term : 2.0 * term;
         }
     }
@@ -158,14 +158,15 @@ static void set_errors(const Seen *seen, Polynomial *p)
     for (unsigned i = 0; i <= degree; i++) {
         for (unsigned j = i; j <= degree; j++) {
             double balls = fabs(seen->line->square * seen->radius[i] * seen->radius[j]), times = i == j ? 1.0 : 2.0;
-            p->errors[i + j] += times * (off[i] * size[j] + size[i] * off[j] + off[i] * off[j] +
-                                         0x1p-47 * (size[i] * size[j] + balls));
+            p->errors[i + j] +=
+                times * (off[i] * size[j] + size[i] * off[j] + off[i] * off[j] + 0x1p-47 * (size[i] * size[j] + balls));
             p->sizes[i + j] += times * (0x1p98 * (off[i] * off[j]) + balls);
         }
     }
 }
 
-// Of Bernstein's coefficients of F on [-1/2, 1/2], which F lies between: 1: all are greater than 0, -1: less, 0: neither.
+// Of Bernstein's coefficients of F on [-1/2, 1/2], which F lies between: 1: all are greater than 0, -1: less, 0:
+// neither.
 static int sign_of_all(const double *f, const double *errors, unsigned degree)
 {
     double power = 1.0, c[FORM_DEGREE + 1] = {0.0}, error = 0.0, even[4], odd[4];

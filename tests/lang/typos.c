@@ -211,6 +211,7 @@ static void try_properties(const InternTable *names, Tally *sums)
         [KIND_LATHE] = "linear_spline 2, <0, 0>, <1, 1>",
         [KIND_SUPERELLIPSOID] = "<1, 1>",
         [KIND_SPHERE_SWEEP] = "linear_spline 2, 0, 1, x, 1",
+        [KIND_JULIA_FRACTAL] = "<0, 0, 0.5, 0>",
         [KIND_SOR] = "4, <0, 0>, <1, 0>, <1, 1>, <0, 1>",
         [KIND_POLYGON] = "4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
         [KIND_MESH] = "triangle { 0, x, y }",

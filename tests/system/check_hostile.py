@@ -156,6 +156,9 @@ SCENES = {
         "sphere_sweep { %s 5, 0, %s, y, %s, <1, 1, %s>, 0, %s*x, %s, z, 1 pigment { rgb 1 } }\n" % (curve, low, high, low, high, low)
         for curve in ("linear_spline", "b_spline", "cubic_spline")
         for low in ("1", "1e-320", "1e150") for high in ("1", "1.7e308", "1e-9")),
+    "Julia fractals of the greatest and the least numbers": HEAD + "".join(
+        "julia_fractal { <%s, 0, %s, 0> %s max_iteration 3 slice <%s, 0, 0, 1e-300>, %s pigment { rgb 1 } }\n" % (a, b, words, b, a)
+        for words in ("sqr", "cube") for a in ("0.1", "1e300", "1e-320") for b in ("0", "1e300", "-0.4")),
     "a sphere sweep of ten thousand balls in one place": HEAD + "sphere_sweep { b_spline 10000" + ", 0, 1" * 10000 + " }\n",
     "superellipsoids of the greatest and the least numbers": HEAD + "".join(
         "superellipsoid { <%s, %s> pigment { rgb 1 } }\n" % (about, along)

@@ -25,11 +25,11 @@ light_source { <5, 5, -5> rgb 1 [[photons { reflection on }]] }
 #declare Skin = texture { pigment { rgb <0.8, 0.3, 0.2> } finish { Metal } };
 union { [[ovus { 2, 0.1 }]] sphere { <-1, 0, 0>, 1 } sphere { <1, 0, 0>, 1 } texture { Skin } }
 sphere { <0, 1, -1>, 0.4 pigment { rgbt 0.8 } interior { ior 1.4 [[media { absorption 1 }]] [[dispersion 1.1]] } }
-[[julia_fractal { 0 }]]
+[[light_group { }]]
 #declare Unused = rainbow { };
 """
 WARNING = ("drawn without radiosity in global_settings, photons in global_settings, media, ovus, subsurface in finish, "
-           "dispersion in interior, julia_fractal")
+           "dispersion in interior, light_group")
 
 
 def notes(path):

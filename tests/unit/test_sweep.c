@@ -1,8 +1,8 @@
-// A ray against a sphere sweep, beside its balls in more digits: rays by chance, that graze, along a segment, from afar,
-// through thin tubes and balls within balls, of all three curves; and rays that start on the surface.
+// A ray against a sphere sweep, beside its balls in more digits: rays by chance, that graze, along a segment, from
+// afar, through thin tubes and balls within balls, of all three curves; and rays that start on the surface.
 //
-// A place of a line is inside where some ball is nearer than its radius, for which the least of |p - m(s)|² - r(s)² over
-// s is looked for in long double. Each place where that is not 0 but for rounding must be as the intervals say; of
+// A place of a line is inside where some ball is nearer than its radius, for which the least of |p - m(s)|² - r(s)²
+// over s is looked for in long double. Each place where that is not 0 but for rounding must be as the intervals say; of
 // straight segments the class of the line, too. CHECK_LONG=1: a million rays each.
 //
 // SPDX-License-Identifier: MIT
@@ -165,8 +165,8 @@ static long double room_of(const Family *family, const Ray *ray, double t)
 }
 
 // Places on both sides of the ends of intervals, and between; returns how many are not as they should be.
-static int compare(const Family *family, const Sweep *sweep, const Ray *ray, const RayInterval *intervals, unsigned count,
-                   double begin, int *asked)
+static int compare(const Family *family, const Sweep *sweep, const Ray *ray, const RayInterval *intervals,
+                   unsigned count, double begin, int *asked)
 {
     double length = vec3_length(ray->direction), middle = family->far / length, half = 3.0 * family->size / length;
     int wrong = 0;

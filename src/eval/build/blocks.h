@@ -447,6 +447,14 @@ const char *sweep_form(const void *object, Part *part) RT_MUST_CHECK; // these a
 bool sweep_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool sweep_box(const void *object, OwnBox *own);
 
+// julia.c: Julia fractals
+bool julia_body(Block *block) RT_MUST_CHECK;
+bool julia_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool julia_close(Block *block) RT_MUST_CHECK; // this and these as in ShapeClass
+const char *julia_form(const void *object, Part *part) RT_MUST_CHECK;
+bool julia_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
+bool julia_box(const void *object, OwnBox *own);
+
 // text.c: letters, as a union of prisms
 bool text_body(Block *block) RT_MUST_CHECK;
 

@@ -394,6 +394,7 @@ static const ShapeClass classes[KIND_COUNT] = {
     [KIND_PRISM] = {.form = prism_form, .holds = prism_holds, .box = prism_box},
     [KIND_LATHE] = {.form = lathe_form, .holds = lathe_holds, .box = lathe_box},
     [KIND_SUPERELLIPSOID] = {.form = superellipsoid_form, .holds = superellipsoid_has, .box = superellipsoid_box},
+    [KIND_JULIA_FRACTAL] = {.close = julia_close, .form = julia_form, .holds = julia_has, .box = julia_box},
     [KIND_SPHERE_SWEEP] = {.form = sweep_form, .holds = sweep_has, .box = sweep_box},
     [KIND_SOR] = {.form = sor_form, .holds = sor_has, .box = sor_box},
     [KIND_POLYGON] = {.is_flat = true, .form = polygon_form, .box = polygon_box},

@@ -35,14 +35,15 @@ static bool read_count(Block *block, SweepCurve curve, uint32_t *count)
     double number;
     Span span = block->node->span;
     if (!cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, block_here(block), "`sphere_sweep` needs a number here: its number of balls");
+        return block_fault(block, DIAG_E0253, block_here(block),
+                           "`sphere_sweep` needs a number here: its number of balls");
     }
     if (!cursor_number(&block->cursor, &number, &span) || !block_finite(block, number, span, "number of balls")) {
         return false;
     }
     if (!(number >= sweep_least(curve))) {
-        return block_fault(block, DIAG_E0488, span, "a `%s` of a sphere sweep needs at least %u balls", curves[curve].name,
-                           sweep_least(curve));
+        return block_fault(block, DIAG_E0488, span, "a `%s` of a sphere sweep needs at least %u balls",
+                           curves[curve].name, sweep_least(curve));
     }
     if (number > SWEEP_BALLS_MOST) {
         return block_fault(block, DIAG_E0488, span, "a sphere sweep has at most %d balls here", SWEEP_BALLS_MOST);
@@ -58,9 +59,9 @@ static bool is_at_ball(Block *block, uint32_t read, uint32_t count)
     if (cursor_at_value(&block->cursor)) {
         return true;
     }
-    return !block->ev->stop && block_fault(block, DIAG_E0488, block_here(block),
-                                           "`sphere_sweep` needs %u balls, a middle and a radius each, and has %u", count,
-                                           read);
+    return !block->ev->stop &&
+           block_fault(block, DIAG_E0488, block_here(block),
+                       "`sphere_sweep` needs %u balls, a middle and a radius each, and has %u", count, read);
 }
 
 static bool read_ball(Block *block, uint32_t i, uint32_t count, SweepBall *ball)
@@ -91,8 +92,8 @@ static double scale_balls(SweepBall *balls, uint32_t count)
     frexp(most, &exponent);
     for (uint32_t i = 0; i < count; i++) {
         SweepBall *ball = &balls[i];
-        ball->middle = vec3(ldexp(ball->middle.x, -exponent), ldexp(ball->middle.y, -exponent),
-                            ldexp(ball->middle.z, -exponent));
+        ball->middle =
+            vec3(ldexp(ball->middle.x, -exponent), ldexp(ball->middle.y, -exponent), ldexp(ball->middle.z, -exponent));
         ball->radius = ldexp(ball->radius, -exponent);
     }
     return ldexp(1.0, exponent);

@@ -1,0 +1,118 @@
+// A line through a fractal's ball is walked from one end to the other, as POV-Ray does it: by 1 / precision, or as far
+// as the distance is estimated to be where that is more; where a step has changed sides, the crossing is found by
+// halving.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/julia.h"
+
+#include "math/extreme.h"
+
+enum { ASKED_EVERY = 1024 }; // so often it is asked whether somebody wants the answer
+
+typedef struct Walk {
+    const Julia *julia;
+    const Abandon *abandon;
+    Ray ray;
+    double length; // of the ray's direction
+    RayInterval open, *intervals;
+    unsigned count;
+    bool is_inside, is_alone, is_over;
+} Walk;
+
+static bool ball_ends(const Julia *julia, const Ray *ray, double *from, double *to)
+{
+    double square = vec3_length_squared(ray->direction), at = -vec3_dot(ray->origin, ray->direction) / square;
+    double depth =
+        julia->radius * julia->radius - vec3_length_squared(vec3_add_scaled(ray->origin, at, ray->direction));
+    if (!(depth > 0.0)) {
+        return false;
+    }
+    double half = sqrt(depth / square);
+    *from = at - half;
+    *to = at + half;
+    return *to > 0.0;
+}
+
+static void cross(Walk *walk, double t)
+{
+    if (walk->is_inside) {
+        walk->open.leave = t;
+        walk->open.leave_side = 0;
+        walk->intervals[walk->count++] = walk->open;
+    } else {
+        walk->open.enter = t;
+        walk->open.enter_side = 0;
+    }
+    walk->is_inside = !walk->is_inside;
+    walk->is_over = walk->is_alone;
+}
+
+// Between a place on the side that the walk is on, and one on the other.
+static double halve(const Walk *walk, double low, double high)
+{
+    double reach;
+    for (;;) {
+        double middle = 0.5 * (low + high);
+        if (!(low < middle && middle < high)) {
+            return high;
+        }
+        *(julia_holds(walk->julia, ray_at(walk->ray, middle), &reach) == walk->is_inside ? &low : &high) = middle;
+    }
+}
+
+// From a place on; whether that is inside is known.
+static void step_on(Walk *walk, double at, double to)
+{
+    double least = 1.0 / walk->julia->precision, reach = 0.0;
+    julia_holds(walk->julia, ray_at(walk->ray, at), &reach);
+    for (unsigned asked = 1; !walk->is_over && walk->count < JULIA_INTERVALS_MOST; asked++) {
+        double next = at + greater_of(least, walk->is_inside ? 0.0 : reach) / walk->length;
+        bool is_lost = asked % ASKED_EVERY == 0 && walk->abandon && trace_is_abandoned(walk->abandon);
+        if (!(next > at && next < to) || is_lost) {
+            break;
+        }
+        if (julia_holds(walk->julia, ray_at(walk->ray, next), &reach) != walk->is_inside) {
+            cross(walk, halve(walk, at, next));
+        }
+        at = next;
+    }
+}
+
+unsigned julia_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    const IsosurfaceWorld *world = solid->isosurface.world;
+    Walk walk = {.julia = julia_of(solid->isosurface.list),
+                 .abandon = world ? world->abandon : NULL,
+                 .ray = *object,
+                 .length = vec3_length(object->direction),
+                 .open = INTERVAL_ALL,
+                 .intervals = intervals};
+    double from, to, reach;
+    if (!ball_ends(walk.julia, object, &from, &to)) {
+        return 0;
+    }
+    double at = from > 0.0 ? from : 0.0;
+    bool is_start = left.side != SIDE_NONE;
+    bool begins_inside = is_start ? left.inward : julia_holds(walk.julia, ray_at(*object, at), &reach);
+    walk.is_alone = solid->node == NODE_NONE;
+    if (begins_inside && from > 0.0) {
+        cross(&walk, from);
+    } else {
+        walk.is_inside = begins_inside;
+    }
+    step_on(&walk, at, to);
+    if (walk.is_over && walk.is_inside) { // it ends somewhere behind
+        walk.open.leave = (double)INFINITY;
+        walk.open.leave_side = SIDE_NONE;
+        walk.intervals[walk.count++] = walk.open;
+    } else if (walk.is_inside) {
+        cross(&walk, to);
+    }
+    return walk.count;
+}
+
+Vec3 julia_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return julia_gradient(julia_of(solid->isosurface.list), point);
+}
