@@ -27,29 +27,30 @@ syn keyword rtlangColour srgbt transmit
 syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo all_intersections ambient
 syn keyword rtlangWord ambient_light angle aperture area_light assumed_gamma average background bicubic_patch
 syn keyword rtlangWord black_hole blob blur_samples bounded_by box boxed bozo brick brick_size brilliance
-syn keyword rtlangWord bump_size bumps camera caustics cells charset checker circular clipped_by color_map
-syn keyword rtlangWord colour_map component cone confidence conserve_energy contained_by control0 control1
-syn keyword rtlangWord crackle crand cubic cubic_wave cylinder cylindrical dents difference diffuse direction
-syn keyword rtlangWord disc dist_exp distance emission evaluate exponent exr exterior fade_color fade_colour
-syn keyword rtlangWord fade_distance fade_power falloff finish fisheye flip focal_point fog fog_alt fog_offset
-syn keyword rtlangWord fog_type form frequency fresnel gamma global_settings gradient granite hdr height_field
-syn keyword rtlangWord hexagon hf_gray_16 hierarchy hollow image_map inside_vector interior interpolate
-syn keyword rtlangWord intersection inverse ior irid irid_wavelength isosurface jitter jpeg julia lambda lathe
-syn keyword rtlangWord leopard light_source location look_at looks_like magnet major_radius mandel map_type
-syn keyword rtlangWord marble material matrix max_gradient max_intersections max_trace max_trace_level
-syn keyword rtlangWord media_attenuation media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar
-syn keyword rtlangWord no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator normal
-syn keyword rtlangWord normal_map number_of_waves object octaves offset omega omnimax once onion open orient
-syn keyword rtlangWord orientation orthographic panoramic parallel pattern perspective pgm phase phong
-syn keyword rtlangWord phong_size pigment pigment_map pigment_pattern planar plane png point_at poly poly_wave
-syn keyword rtlangWord polygon ppm premultiplied prism quadric quartic quick_color quick_colour quilted radial
-syn keyword rtlangWord radius ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
+syn keyword rtlangWord bump_map bump_size bumps camera caustics cells charset checker circular clipped_by
+syn keyword rtlangWord color_map colour_map component cone confidence conserve_energy contained_by control0
+syn keyword rtlangWord control1 crackle crand cubic cubic_wave cylinder cylindrical dents difference diffuse
+syn keyword rtlangWord direction disc dist_exp distance emission evaluate exponent exr exterior fade_color
+syn keyword rtlangWord fade_colour fade_distance fade_power falloff finish fisheye flip focal_point fog
+syn keyword rtlangWord fog_alt fog_offset fog_type form frequency fresnel gamma global_settings gradient
+syn keyword rtlangWord granite hdr height_field hexagon hf_gray_16 hierarchy hollow image_map image_pattern
+syn keyword rtlangWord inside_vector interior interpolate intersection inverse ior irid irid_wavelength
+syn keyword rtlangWord isosurface jitter jpeg julia lambda lathe leopard light_source location look_at
+syn keyword rtlangWord looks_like magnet major_radius mandel map_type marble material material_map matrix
+syn keyword rtlangWord max_gradient max_intersections max_trace max_trace_level media_attenuation
+syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
+syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
+syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
+syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
+syn keyword rtlangWord pigment_map pigment_pattern planar plane png point_at poly poly_wave polygon ppm
+syn keyword rtlangWord premultiplied prism quadric quartic quick_color quick_colour quilted radial radius
+syn keyword rtlangWord ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
 syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope_map smooth
 syn keyword rtlangWord smooth_triangle solid sor specular sphere spherical spiral1 spiral2 split_union
 syn keyword rtlangWord spotlight spotted strength sturm superellipsoid text texture texture_map tga thickness
 syn keyword rtlangWord threshold tiff tightness tiles toroidal torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
-syn keyword rtlangWord variance warp water_level waves wood wrinkles
+syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up uv_mapping variance warp
+syn keyword rtlangWord water_level waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

@@ -4,6 +4,7 @@
 // the block's arena that is never changed again. Knows nothing of how a pattern is computed.
 //
 // SPDX-License-Identifier: MIT
+#include <math.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -235,6 +236,7 @@ static bool is_of_pattern(const SchemaProperty *property)
     case ACTION_PATTERN:
     case ACTION_FUNCTION:
     case ACTION_TILES:
+    case ACTION_PICTURE:
     case ACTION_WARP:
     case ACTION_PATTERN_SOLID:
     case ACTION_WAVE:
@@ -260,7 +262,8 @@ static bool fits_texture(Block *block, const SchemaProperty *property, const Ast
                            property->word);
     }
     bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_FUNCTION ||
-                       property->action == ACTION_TILES || property->action == ACTION_MAP; // of its own
+                       property->action == ACTION_TILES || property->action == ACTION_MAP ||
+                       property->action == ACTION_PICTURE; // of its own
     return !is_word || !block->is_plain || has_message ||
            block_fault(block, DIAG_E0256, item->span, "`%s` can stand only in a texture that begins with a pattern",
                        property->word);
@@ -301,7 +304,8 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
     if (type == PATTERN_NONE && is_plain && !block->has_unsupported) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` needs a pattern before it", property->word);
     }
-    if (pattern_info(type)->blocks || (type == PATTERN_AVERAGE && has_values)) {
+    bool is_closed = type == PATTERN_MATERIAL_MAP || type == PATTERN_BUMP_MAP;
+    if (pattern_info(type)->blocks || is_closed || (type == PATTERN_AVERAGE && has_values)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand beside `%s`", property->word,
                            pattern_info(type)->word);
     }
@@ -565,6 +569,59 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     bool has_entries = info->blocks != 0 && block->kind != KIND_PATTERN;
     return (type != PATTERN_PIGMENT || read_pigment_pattern(block, item)) &&
            (!has_entries || read_block_entries(block, type, item->span)) && read_amount(block);
+}
+
+// A picture whose values are a pattern, heights or numbers of textures.
+bool pattern_picture_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    PatternPart *part = &block->record->patterned;
+    PatternType type = type_of(property->word);
+    if (!pattern_may_begin(block, property, item)) {
+        return false;
+    }
+    const ImageDesc *image = image_read_numbers(block, item, type);
+    if (!image) {
+        return false;
+    }
+    begin_pattern(&part->pattern, type);
+    part->pattern.type = type;
+    part->image = image;
+    if (type == PATTERN_BUMP_MAP) {
+        part->map = NULL;
+        block->record->normal.slopes = NULL;
+        block->record->normal.amount = isnan(image->bump_size) ? block->record->normal.amount : image->bump_size;
+    }
+    if (type == PATTERN_MATERIAL_MAP) {
+        PatternMap map = {image->textures, image->texture_count};
+        part->map = arena_copy(block->arena, &map, sizeof map);
+        part->pattern.frequency = 0.0; // numbers stay as they are
+        part->pattern.wave = WAVE_RAMP;
+        part->pattern.count = (int32_t)image->texture_count;
+        block->is_plain = true; // only transforms follow
+        return part->map || eval_no_memory(block->ev, item->span);
+    }
+    return read_amount(block);
+}
+
+// The next texture of a material_map.
+bool material_texture_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    ImageDesc *image = &block->record->image;
+    EntryList list = {image->textures, image->texture_count, image->texture_room};
+    PatternEntry entry = {.at = (double)list.count};
+    Desc record;
+    SchemaKind is;
+    (void)property;
+    block_defaults(block->ev, KIND_TEXTURE, &record);
+    if (!block_read(block->ev, item, KIND_TEXTURE, block->arena, &record, &is) ||
+        !keep_entry(block, KIND_TEXTURE, &record, item->span, &entry) ||
+        !add_entry(block, &list, &entry, item->span)) {
+        return false;
+    }
+    image->textures = list.items;
+    image->texture_count = list.count;
+    image->texture_room = list.capacity;
+    return true;
 }
 
 // `exterior` and `interior`: what is told of a point, and times what.
