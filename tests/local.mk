@@ -398,6 +398,7 @@ lang_cases = \
   %D%/lang/mesh.test \
   %D%/lang/normal.test \
   %D%/lang/pattern.test \
+  %D%/lang/pictures.test \
   %D%/lang/pigment.test \
   %D%/lang/plane.test \
   %D%/lang/range.test \
@@ -413,6 +414,7 @@ lang_cases = \
   %D%/lang/splines.test \
   %D%/lang/strings.test \
   %D%/lang/suggestions.test \
+  %D%/lang/surface.test \
   %D%/lang/texture.test \
   %D%/lang/transforms.test \
   %D%/lang/union.test \

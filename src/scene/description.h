@@ -37,7 +37,10 @@ typedef struct CameraDesc {
 typedef struct ImageDesc {
     PictureSource source; // no path: none was named
     ImageMap map;         // its picture and shades are not set
-    bool is_once, ignored;
+    bool is_once, ignored, uses_alpha, uses_index;
+    double bump_size;           // NaN: not said
+    struct PatternEntry *textures; // of a material_map
+    size_t texture_count, texture_room;
     Span span; // of the file's name
     const PictureShade *shades; // their `next` is not set
     size_t shade_count;
@@ -111,14 +114,15 @@ typedef struct MaterialDesc {
     const InteriorDesc *interior; // likewise
 } MaterialDesc;
 
-typedef struct PatternEntry {
+typedef struct PatternEntry PatternEntry;
+struct PatternEntry {
     double at;
     Rgbft colour;
     const PigmentDesc *pigment;      // instead of the colour, or NULL
     const TextureDesc *texture;      // of a map of textures
     const NormalDesc *normal;        // of a map of normals
     double height, slope;            // of a slope map
-} PatternEntry;
+};
 
 struct PatternMap {
     const PatternEntry *entries; // NULL in the description of a map that has none yet

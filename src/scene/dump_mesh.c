@@ -4,6 +4,7 @@
 // patterns are in the scene, and a mesh's in its own space: what the part's matrix does to them is taken back.
 //
 // SPDX-License-Identifier: MIT
+#include "base/number.h"
 #include "scene/corners.h"
 #include "scene/dump.h"
 
@@ -162,8 +163,9 @@ static void dump_uvs(const Mesh *mesh, TextBuffer *out)
         text_append(out, i % 4 == 0 ? ",\n    " : ", ");
         double uv[2] = {(double)mesh->uvs[i][0], (double)mesh->uvs[i][1]};
         mesh_uv_settle(mesh, uv);
-        float narrowed[2] = {(float)uv[0], (float)uv[1]}; // as they are read again
-        dump_numbers(out, (double[]){(double)narrowed[0], (double)narrowed[1]}, 2);
+        uv[0] = number_single(uv[0]); // as they are read again
+        uv[1] = number_single(uv[1]);
+        dump_numbers(out, uv, 2);
     }
     text_append(out, " }\n");
 }

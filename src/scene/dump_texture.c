@@ -88,6 +88,53 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
     text_append(out, "\n");
 }
 
+// In a string a backslash and a quote need one before them.
+static void dump_string(TextBuffer *out, const char *text)
+{
+    text_append(out, "\"");
+    for (; *text; text++) {
+        text_printf(out, "%s%c", *text == '\\' || *text == '"' ? "\\" : "", *text);
+    }
+    text_append(out, "\"");
+}
+
+static void dump_source(const PictureSource *source, TextBuffer *out)
+{
+    text_printf(out, " {\n    %s ", picture_format_word((PictureFormat)source->format));
+    dump_string(out, source->path);
+    if (source->encoding == PICTURE_GAMMA_POWER) {
+        dump_number(out, " gamma ", source->gamma);
+    } else if (source->encoding == PICTURE_GAMMA_SRGB) {
+        text_append(out, " gamma srgb");
+    }
+    if (source->alpha != PICTURE_ALPHA_UNSAID) {
+        text_printf(out, " premultiplied %s", source->alpha == PICTURE_ALPHA_ASSOCIATED ? "on" : "off");
+    }
+}
+
+// A picture and how it is laid, up to the closing brace.
+static void dump_picture(const Scene *scene, const Pattern *pattern, TextBuffer *out)
+{
+    const ImageMap *map = &scene->image_maps.items[pattern->image];
+    text_printf(out, "  %s", pattern_info((PatternType)pattern->type)->word);
+    dump_source(&scene->picture_sources.items[map->picture], out);
+    text_printf(out, " map_type %lu%s%s%s", (unsigned long)map->projection, map->is_once ? " once" : "",
+                map->use == PICTURE_ALPHA ? " use_alpha" : "", map->use == PICTURE_INDEX ? " use_index" : "");
+    if (map->interpolation != INTERPOLATION_NONE) {
+        text_printf(out, " interpolate %lu", (unsigned long)map->interpolation);
+    }
+    for (uint32_t i = map->shades; i != RECORD_NONE; i = scene->picture_shades.items[i].next) {
+        const PictureShade *shade = &scene->picture_shades.items[i];
+        text_printf(out, "\n    %s ", shade->is_filter ? "filter" : "transmit");
+        if (shade->place == SHADE_ALL) {
+            text_append(out, "all");
+        } else {
+            text_printf(out, "%lu,", (unsigned long)shade->place);
+        }
+        dump_number(out, " ", shade->amount);
+    }
+}
+
 static void dump_surface_word(const Pattern *pattern, TextBuffer *out)
 {
     text_append(out, pattern->flags & PATTERN_ON_SURFACE ? "  uv_mapping\n" : "");
@@ -117,6 +164,11 @@ static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBu
     dump_surface_word(pattern, out);
     if (pattern->type == PATTERN_FUNCTION) {
         dump_formula(scene, pattern, out);
+        return;
+    }
+    if (pattern_is_picture(pattern->type)) {
+        dump_picture(scene, pattern, out);
+        text_append(out, pattern->type == PATTERN_MATERIAL_MAP ? "" : " }");
         return;
     }
     const PatternInfo *info = pattern_info((PatternType)pattern->type);
@@ -152,51 +204,11 @@ void dump_pattern(const Scene *scene, const PatternedPigment *record, TextBuffer
     dump_place(scene, &record->pattern, &record->to_world, out);
 }
 
-// In a string a backslash and a quote need one before them.
-static void dump_string(TextBuffer *out, const char *text)
-{
-    text_append(out, "\"");
-    for (; *text; text++) {
-        text_printf(out, "%s%c", *text == '\\' || *text == '"' ? "\\" : "", *text);
-    }
-    text_append(out, "\"");
-}
-
-static void dump_source(const PictureSource *source, TextBuffer *out)
-{
-    text_printf(out, "  image_map {\n    %s ", picture_format_word((PictureFormat)source->format));
-    dump_string(out, source->path);
-    if (source->encoding == PICTURE_GAMMA_POWER) {
-        dump_number(out, " gamma ", source->gamma);
-    } else if (source->encoding == PICTURE_GAMMA_SRGB) {
-        text_append(out, " gamma srgb");
-    }
-    if (source->alpha != PICTURE_ALPHA_UNSAID) {
-        text_printf(out, " premultiplied %s", source->alpha == PICTURE_ALPHA_ASSOCIATED ? "on" : "off");
-    }
-}
-
 static void dump_image_map(const Scene *scene, const PatternedPigment *record, size_t number, TextBuffer *out)
 {
-    const ImageMap *map = &scene->image_maps.items[record->pattern.image];
     text_printf(out, "#declare P%zu = pigment {\n", number);
-    dump_surface_word(&record->pattern, out);
-    dump_source(&scene->picture_sources.items[map->picture], out);
-    text_printf(out, " map_type %lu%s", (unsigned long)map->projection, map->is_once ? " once" : "");
-    if (map->interpolation != INTERPOLATION_NONE) {
-        text_printf(out, " interpolate %lu", (unsigned long)map->interpolation);
-    }
-    for (uint32_t i = map->shades; i != RECORD_NONE; i = scene->picture_shades.items[i].next) {
-        const PictureShade *shade = &scene->picture_shades.items[i];
-        text_printf(out, "\n    %s ", shade->is_filter ? "filter" : "transmit");
-        if (shade->place == SHADE_ALL) {
-            text_append(out, "all");
-        } else {
-            text_printf(out, "%lu,", (unsigned long)shade->place);
-        }
-        dump_number(out, " ", shade->amount);
-    }
-    text_append(out, " }\n");
+    dump_pattern_word(scene, &record->pattern, out);
+    text_append(out, "\n");
     dump_modifiers(&record->pattern, out);
     dump_place(scene, &record->pattern, &record->to_world, out);
     text_append(out, "}\n");
@@ -292,7 +304,8 @@ static void dump_layer(const Texture *record, size_t number, TextBuffer *out)
 
 static void dump_texture_pattern(const Scene *scene, const Texture *record, size_t number, TextBuffer *out)
 {
-    bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
+    bool is_numbered = record->pattern.type == PATTERN_MATERIAL_MAP;
+    bool has_blocks = is_numbered || pattern_info((PatternType)record->pattern.type)->blocks > 0;
     dump_formula_parts(scene, &record->pattern, out);
     text_printf(out, "#declare T%zu = texture {\n", number);
     dump_pattern_word(scene, &record->pattern, out);
@@ -304,8 +317,10 @@ static void dump_texture_pattern(const Scene *scene, const Texture *record, size
         }
         text_printf(out, has_blocks ? " texture { T%lu }" : " T%lu]", (unsigned long)entry->texture + 1);
     }
-    text_append(out, has_blocks ? "\n" : " }\n");
-    dump_modifiers(&record->pattern, out);
+    text_append(out, has_blocks && !is_numbered ? "\n" : " }\n");
+    if (!is_numbered) {
+        dump_modifiers(&record->pattern, out);
+    }
     dump_place(scene, &record->pattern, &record->to_world, out);
     text_append(out, "}\n");
 }

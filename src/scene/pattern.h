@@ -48,6 +48,9 @@ typedef enum PatternType {
     PATTERN_PIGMENT,  // the grey of a pigment
     PATTERN_SLOPE,    // how the surface faces a direction, or a point
     PATTERN_AOI,      // how it faces the ray
+    PATTERN_IMAGE_PATTERN, // what a picture tells as values
+    PATTERN_BUMP_MAP,      // as heights, of normals only
+    PATTERN_MATERIAL_MAP,  // as numbers of textures, of textures only
     PATTERN_AVERAGE, // no pattern: all that lies along it, mixed
     PATTERN_COUNT
 } PatternType;
@@ -67,7 +70,7 @@ typedef struct Pattern {
     uint32_t wave; // WaveType
     int32_t generator; // NoiseGenerator, 0: the scene's
     int32_t octaves;   // of turbulence, at least 1
-    int32_t count;     // spiral1: its arms; mandel, julia: steps, at least 1
+    int32_t count;     // material_map: its textures; spiral1: its arms; mandel, julia: steps, at least 1
     uint32_t flags;    // PATTERN_SOLID and the like
     int32_t magnet, power;      // mandel, julia: which of the magnets, 0 for none; else the power of z in each step
     int32_t exterior, interior; // what is told of points that leave, and of those that stay
@@ -83,7 +86,7 @@ typedef struct Pattern {
     double agate_turb; // agate: of its own turbulence
     Vec3 turbulence;
     double lambda, omega; // of turbulence, see Octaves
-    uint32_t image;  // PATTERN_IMAGE_MAP: of Scene.image_maps; PATTERN_FUNCTION: the first of Scene.formula_steps;
+    uint32_t image;  // of a picture: of Scene.image_maps; PATTERN_FUNCTION: the first of Scene.formula_steps;
                      // PATTERN_PIGMENT: of Scene.patterns; else 0
     uint32_t warps;  // 1 + the first of Scene.warps on the way to it; 0: there is none
 } Pattern;
@@ -111,6 +114,13 @@ typedef struct PatternInfo {
 
 // The entry of a type, never NULL; PATTERN_NONE's word is "".
 const PatternInfo *pattern_info(PatternType type);
+
+// Whether it is made of a picture.
+static inline bool pattern_is_picture(uint32_t type)
+{
+    return type == PATTERN_IMAGE_MAP ||
+           (type >= PATTERN_IMAGE_PATTERN && type <= PATTERN_MATERIAL_MAP);
+}
 // "ramp_wave" and the like.
 const char *pattern_wave_word(WaveType wave);
 

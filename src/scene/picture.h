@@ -83,13 +83,22 @@ typedef enum Interpolation {
     INTERPOLATION_DISTANCE = 4,
 } Interpolation;
 
+// What a picture tells: its colours, or one number of each pixel.
+typedef enum PictureUse {
+    PICTURE_COLOURS,
+    PICTURE_GREY,  // of colours
+    PICTURE_ALPHA, // what comes through; without alpha the first channel
+    PICTURE_INDEX, // the place in the palette over 255, else grey
+    PICTURE_RED,   // likewise, else red
+} PictureUse;
+
 // How a picture is laid; the numbers are the language's.
 typedef struct ImageMap {
     uint32_t picture; // of Scene.picture_sources and Scene.pictures
     uint32_t projection, interpolation;
     uint32_t is_once;
     uint32_t shades; // the first of Scene.picture_shades, or RECORD_NONE
-    uint32_t unused;
+    uint32_t use;    // PictureUse
 } ImageMap;
 
 #define SHADE_ALL UINT32_MAX

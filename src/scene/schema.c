@@ -35,6 +35,7 @@ static const SchemaProperty transforms[] = {
 
 static const SchemaProperty pattern_modifiers[] = {
     {"checker", TYPE_ACTION, ACTION_PATTERN, .doc = "unit cubes of two kinds"},
+    {"image_pattern", TYPE_BLOCK, ACTION_PICTURE, .doc = "how bright a picture is"},
     {"hexagon", TYPE_ACTION, ACTION_PATTERN, .doc = "six-sided prisms of three kinds along y, each side of length 1"},
     {"brick", TYPE_ACTION, ACTION_PATTERN, .doc = "mortar and bricks in courses along y"},
     {"gradient", TYPE_ACTION, ACTION_PATTERN, .doc = "from 0 to 1 along a vector, again and again"},
@@ -556,6 +557,7 @@ static const SchemaProperty texture_properties[] = {
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "its colour"},
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
+    {"material_map", TYPE_BLOCK, ACTION_PICTURE, .doc = "textures by the numbers of a picture"},
     {"texture_map", TYPE_BLOCK, ACTION_MAP, .doc = "textures along a pattern of values"},
     {"tiles", TYPE_BLOCK, ACTION_TILES,
      .doc = "old: `{ textures tile2 textures }`, `checker` of the second and the first"},
@@ -570,6 +572,7 @@ static const SchemaProperty normal_arguments[] = {
 static const SchemaProperty normal_properties[] = {
     SURFACE,
     AVERAGE,
+    {"bump_map", TYPE_BLOCK, ACTION_PICTURE, .doc = "a picture of heights"},
     {"bump_size", TYPE_NUMBER, AT(NormalDesc, amount), .doc = "how deep"},
     {"accuracy", TYPE_NUMBER, AT(NormalDesc, accuracy), .range = POSITIVE,
      .doc = "how far from the point the pattern is looked at"},
@@ -650,7 +653,7 @@ static const WarpDesc warp_defaults = {
 
 #define FILE_TYPE(word, text) {word, TYPE_ACTION, ACTION_IMAGE, .is_first = true, .doc = text}
 
-static const SchemaProperty image_properties[] = {
+static const SchemaProperty picture_properties[] = {
     FILE_TYPE("png", "then the name of a PNG file, with or without its ending"),
     FILE_TYPE("jpeg", "of a JPEG file"),
     FILE_TYPE("tga", "of a Targa file"),
@@ -665,14 +668,38 @@ static const SchemaProperty image_properties[] = {
      .doc = "right after the name: whether colours are multiplied with alpha"},
     {"map_type", TYPE_ACTION, ACTION_IMAGE, .doc = "0 plane, 1 sphere, 2 cylinder, 5 torus"},
     {"interpolate", TYPE_ACTION, ACTION_IMAGE, .doc = "2 bilinear, 3 bicubic, 4 by distance"},
-    {"once", TYPE_FLAG, AT(ImageDesc, is_once), .doc = "transparent beyond the picture, which is else repeated"},
-    {"filter", TYPE_ACTION, ACTION_IMAGE, .doc = "`all` or a place in the palette, then how much"},
-    {"transmit", TYPE_ACTION, ACTION_IMAGE, .doc = "`all` or a place in the palette, then how much"},
-    {"use_color", TYPE_FLAG, AT(ImageDesc, ignored), .doc = "accepted; changes no picture"},
-    {"use_colour", TYPE_FLAG, AT(ImageDesc, ignored), .doc = "accepted; changes no picture"},
+    {"once", TYPE_FLAG, AT(ImageDesc, is_once), .doc = "nothing is beyond the picture, which is else repeated"},
 };
 
-static const ImageDesc image_defaults = {.map = {.picture = 0}};
+#define USE_COLOUR                                                                                                     \
+    {"use_color", TYPE_FLAG, AT(ImageDesc, ignored), .doc = "accepted; changes no picture"},                           \
+    {                                                                                                                  \
+        "use_colour", TYPE_FLAG, AT(ImageDesc, ignored), .doc = "accepted; changes no picture"                         \
+    }
+
+static const SchemaProperty image_properties[] = {
+    {"filter", TYPE_ACTION, ACTION_IMAGE, .doc = "`all` or a place in the palette, then how much"},
+    {"transmit", TYPE_ACTION, ACTION_IMAGE, .doc = "`all` or a place in the palette, then how much"},
+    USE_COLOUR,
+};
+
+static const SchemaProperty image_pattern_properties[] = {
+    {"use_alpha", TYPE_FLAG, AT(ImageDesc, uses_alpha), .doc = "how much comes through, not how bright it is"},
+    {"use_index", TYPE_FLAG, AT(ImageDesc, ignored), .doc = "accepted; changes no picture"},
+    USE_COLOUR,
+};
+
+static const SchemaProperty bump_map_properties[] = {
+    {"bump_size", TYPE_NUMBER, AT(ImageDesc, bump_size), .doc = "how deep, as in the normal around it"},
+    {"use_index", TYPE_FLAG, AT(ImageDesc, uses_index), .doc = "the place in the palette is the height"},
+    USE_COLOUR,
+};
+
+static const SchemaProperty material_map_properties[] = {
+    {"texture", TYPE_BLOCK, ACTION_MAP_MATERIAL, .doc = "the next one of the textures, from 0 on"},
+};
+
+static const ImageDesc image_defaults = {.map = {.picture = 0}, .bump_size = NAN};
 
 #define FINISH_AT(field) .at = (uint16_t)offsetof(FinishDesc, finish.field)
 
@@ -1196,8 +1223,26 @@ static const SchemaBlock kinds[KIND_COUNT] = {
         {.word = "image_map",
          .size = sizeof(ImageDesc),
          .defaults = &image_defaults,
-         .groups = {LIST(image_properties)},
+         .groups = {LIST(picture_properties), LIST(image_properties)},
          .doc = "In a pigment: a picture from a file. Its type may be left out where the ending of its name says it."},
+    [KIND_IMAGE_PATTERN] = {.word = "image_pattern",
+                            .what = "an image_pattern",
+                            .size = sizeof(ImageDesc),
+                            .defaults = &image_defaults,
+                            .groups = {LIST(picture_properties), LIST(image_pattern_properties)},
+                            .doc = "In what has a pattern: how bright a picture is, whose values are taken as they are."},
+    [KIND_BUMP_MAP] = {.word = "bump_map",
+                       .what = "a bump_map",
+                       .size = sizeof(ImageDesc),
+                       .defaults = &image_defaults,
+                       .groups = {LIST(picture_properties), LIST(bump_map_properties)},
+                       .doc = "In a normal: how bright a picture is, as heights."},
+    [KIND_MATERIAL_MAP] = {.word = "material_map",
+                           .what = "a material_map",
+                           .size = sizeof(ImageDesc),
+                           .defaults = &image_defaults,
+                           .groups = {LIST(picture_properties), LIST(material_map_properties)},
+                           .doc = "In a texture: a picture that numbers textures, by its palette or its red."},
     [KIND_NORMAL_MAP] = {.word = "normal_map",
                          .what = "a map of normals",
                          .size = sizeof(PatternMap),

@@ -62,6 +62,9 @@ typedef enum SchemaKind {
     KIND_PIGMENT_MAP,
     KIND_TEXTURE_MAP,
     KIND_IMAGE_MAP,
+    KIND_IMAGE_PATTERN,
+    KIND_BUMP_MAP,
+    KIND_MATERIAL_MAP,
     KIND_NORMAL_MAP,
     KIND_SLOPE_MAP,
     KIND_INTERIOR,
@@ -152,6 +155,8 @@ typedef enum SchemaAction {
     ACTION_CHARSET,
     ACTION_NOISE_GENERATOR,
     ACTION_SURFACE,
+    ACTION_PICTURE,       // `image_pattern` and the like
+    ACTION_MAP_MATERIAL,  // a texture of a material_map
     ACTION_COUNT
 } SchemaAction;
 

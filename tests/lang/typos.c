@@ -172,7 +172,8 @@ static void try_kinds(const InternTable *names, Tally *sums)
         const SchemaBlock *schema = schema_kind((SchemaKind)kind);
         if (kind == KIND_REFLECTION || kind == KIND_CLIPPED_BY || kind == KIND_BOUNDED_BY || kind == KIND_WARP ||
             kind == KIND_IRID || kind == KIND_BLOB_BALL || kind == KIND_BLOB_ROD || kind == KIND_CONTAINED_BY ||
-            kind == KIND_CONTAINER_BALL || kind == KIND_CONTAINER_BOX) {
+            kind == KIND_CONTAINER_BALL || kind == KIND_CONTAINER_BOX || kind == KIND_IMAGE_PATTERN ||
+            kind == KIND_BUMP_MAP || kind == KIND_MATERIAL_MAP) {
             continue; // properties of other blocks
         }
         Place place = {schema->is_declarable ? "#declare A = " : "", "", " { }"};
@@ -226,6 +227,7 @@ static void try_properties(const InternTable *names, Tally *sums)
         // blocks that stand in others only
         [KIND_REFLECTION] = "finish {", [KIND_PATTERN] = "function {", [KIND_IRID] = "finish {",
         [KIND_WARP] = "pigment { bozo", [KIND_BLOB_BALL] = "blob {",   [KIND_BLOB_ROD] = "blob {",
+        [KIND_IMAGE_PATTERN] = "pigment {", [KIND_BUMP_MAP] = "normal {", [KIND_MATERIAL_MAP] = "texture {",
     };
     Tally tally = {0};
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {

@@ -220,7 +220,8 @@ static bool make_room(PatchDrawing *drawing)
     Eval *ev = drawing->ev;
     size_t pieces = drawing->pieces;
     Span span = drawing->patch->part.span;
-    size_t bytes = pieces * (8 * sizeof *drawing->mesh->vertices + 2 * sizeof *drawing->mesh->faces);
+    size_t bytes = pieces * (8 * sizeof *drawing->mesh->vertices + 2 * sizeof *drawing->mesh->faces +
+                             (drawing->has_uv ? 4 * sizeof *drawing->mesh->uvs : 0));
     if (!scene_has_room(ev->scene, 2 * pieces, ev->options.limits, ev->options.diags, span)) {
         ev->stop = true;
         return false;

@@ -65,6 +65,8 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_CAMERA_NORMAL] = camera_normal_action,
     [ACTION_AREA_LIGHT] = light_area_action,
     [ACTION_SURFACE] = surface_action,
+    [ACTION_PICTURE] = pattern_picture_action,
+    [ACTION_MAP_MATERIAL] = material_texture_action,
     [ACTION_SHADOWLESS] = light_shadowless_action,
     [ACTION_LOOKS_LIKE] = light_look_action,
 };
@@ -95,6 +97,9 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_PIGMENT_MAP] = pattern_map_body,
     [KIND_TEXTURE_MAP] = pattern_map_body,
     [KIND_IMAGE_MAP] = image_body,
+    [KIND_IMAGE_PATTERN] = image_body,
+    [KIND_BUMP_MAP] = image_body,
+    [KIND_MATERIAL_MAP] = image_body,
     [KIND_NORMAL_MAP] = pattern_map_body,
     [KIND_SLOPE_MAP] = pattern_map_body,
 };
@@ -121,6 +126,9 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_PIGMENT] = pattern_close,
     [KIND_NORMAL] = normal_close,
     [KIND_IMAGE_MAP] = image_close,
+    [KIND_IMAGE_PATTERN] = image_close,
+    [KIND_BUMP_MAP] = image_close,
+    [KIND_MATERIAL_MAP] = image_close,
     [KIND_LIGHT_SOURCE] = light_close,
 };
 

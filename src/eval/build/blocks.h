@@ -287,6 +287,10 @@ bool fog_close(Block *block) RT_MUST_CHECK;
 bool fog_place(Eval *ev, const FogDesc *fog, Span span) RT_MUST_CHECK;
 
 // image.c
+// What the braces of image_pattern, bump_map or material_map say; NULL: a fault is reported.
+const ImageDesc *image_read_numbers(Block *block, const AstNode *item, PatternType type) RT_MUST_CHECK;
+bool pattern_picture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool material_texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_body(Block *block) RT_MUST_CHECK; // of image_map

@@ -14,6 +14,44 @@ static const char *const endings[PICTURE_FORMATS][3] = {
     [PICTURE_PGM] = {".pgm"},  [PICTURE_TIFF] = {".tif", ".tiff"}, [PICTURE_EXR] = {".exr"}, [PICTURE_HDR] = {".hdr"},
 };
 
+// What is no colour is as the file has it, whatever its type, unless it is said how it is encoded.
+static void take_as_it_is(ImageDesc *image)
+{
+    PictureSource *source = &image->source;
+    if (source->encoding == PICTURE_GAMMA_UNSAID) {
+        source->encoding = PICTURE_GAMMA_POWER;
+        source->gamma = 1.0;
+    }
+    source->space = GAMMA_LINEAR;
+    source->space_gamma = 0.0;
+    source->is_modern = true;
+}
+
+const ImageDesc *image_read_numbers(Block *block, const AstNode *item, PatternType type)
+{
+    static const struct {
+        SchemaKind kind;
+        PictureUse use;
+    } pictures[PATTERN_COUNT] = {[PATTERN_IMAGE_PATTERN] = {KIND_IMAGE_PATTERN, PICTURE_GREY},
+                                 [PATTERN_BUMP_MAP] = {KIND_BUMP_MAP, PICTURE_GREY},
+                                 [PATTERN_MATERIAL_MAP] = {KIND_MATERIAL_MAP, PICTURE_RED}};
+    Desc record;
+    SchemaKind is;
+    block_defaults(block->ev, pictures[type].kind, &record);
+    if (!block_read(block->ev, item, pictures[type].kind, block->arena, &record, &is)) {
+        return NULL;
+    }
+    record.image.map.use = record.image.uses_alpha   ? PICTURE_ALPHA
+                           : record.image.uses_index ? PICTURE_INDEX
+                                                     : pictures[type].use;
+    take_as_it_is(&record.image);
+    const ImageDesc *image = arena_copy(block->arena, &record.image, sizeof record.image);
+    if (!image) {
+        (void)eval_no_memory(block->ev, item->span);
+    }
+    return image;
+}
+
 bool image_map_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     Desc record;
@@ -216,6 +254,10 @@ bool image_close(Block *block)
     ImageDesc *image = &block->record->image;
     image->map.is_once = image->is_once;
     block->is_lost = !image->source.path;
+    bool lacks_textures = block->kind == KIND_MATERIAL_MAP && image->texture_count == 0;
+    if (lacks_textures && image->source.path && !block->has_unsupported) {
+        return block_fault(block, DIAG_E0253, block->node->span, "`material_map` needs a texture after the picture");
+    }
     return image->source.path || block->has_unsupported ||
            block_fault(block, DIAG_E0253, block->node->span, "`%s` needs the name of an image file", block_word(block));
 }

@@ -56,7 +56,8 @@ static bool no_memory(const Builder *builder)
 // that of the entry that has most, `sum` that of all.
 static uint64_t count_at_point(const Pattern *pattern, uint64_t most, uint64_t sum)
 {
-    if (pattern_info((PatternType)pattern->type)->blocks && pattern->frequency == 0.0) {
+    bool is_one = pattern_info((PatternType)pattern->type)->form == PATTERN_OF_BLOCKS;
+    if (is_one && pattern->frequency == 0.0) {
         return most;
     }
     return pattern->type == PATTERN_AVERAGE || sum < 2 * most ? sum : 2 * most;
@@ -152,6 +153,9 @@ static bool place_source(const Builder *builder, const PatternPart *part, Patter
     }
     if (pattern->type == PATTERN_FUNCTION) {
         return formula_place(builder->ev, builder->scene, part->function, builder->span, &pattern->image);
+    }
+    if (pattern->type != PATTERN_IMAGE_MAP && pattern_is_picture(pattern->type)) {
+        return image_place(builder->ev, builder->scene, part->image, &pattern->image);
     }
     if (pattern->type != PATTERN_PIGMENT) {
         return true;

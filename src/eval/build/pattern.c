@@ -4,6 +4,7 @@
 // computed.
 //
 // SPDX-License-Identifier: MIT
+#include <math.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -33,6 +34,7 @@ static bool is_of_pattern(const SchemaProperty *property)
     case ACTION_SLOPE:
     case ACTION_FUNCTION:
     case ACTION_TILES:
+    case ACTION_PICTURE:
     case ACTION_WARP:
     case ACTION_PATTERN_SOLID:
     case ACTION_WAVE:
@@ -58,8 +60,8 @@ static bool fits_texture(Block *block, const SchemaProperty *property, const Ast
                            property->word);
     }
     bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_FUNCTION ||
-                       property->action == ACTION_SLOPE ||
-                       property->action == ACTION_TILES || property->action == ACTION_MAP; // of its own
+                       property->action == ACTION_SLOPE || property->action == ACTION_TILES ||
+                       property->action == ACTION_MAP || property->action == ACTION_PICTURE; // of its own
     return !is_word || !block->is_plain || has_message ||
            block_fault(block, DIAG_E0256, item->span, "`%s` can stand only in a texture that begins with a pattern",
                        property->word);
@@ -233,6 +235,38 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     bool has_entries = info->blocks != 0 && block->kind != KIND_PATTERN;
     return (type != PATTERN_PIGMENT || read_pigment_pattern(block, item)) &&
            (!has_entries || pattern_read_blocks(block, type, item->span)) && pattern_read_amount(block);
+}
+
+// A picture whose values are a pattern, heights or numbers of textures.
+bool pattern_picture_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    PatternPart *part = &block->record->patterned;
+    PatternType type = type_of(property->word);
+    if (!pattern_may_begin(block, property, item)) {
+        return false;
+    }
+    const ImageDesc *image = image_read_numbers(block, item, type);
+    if (!image) {
+        return false;
+    }
+    begin_pattern(&part->pattern, type);
+    part->pattern.type = type;
+    part->image = image;
+    if (type == PATTERN_BUMP_MAP) {
+        part->map = NULL;
+        block->record->normal.slopes = NULL;
+        block->record->normal.amount = isnan(image->bump_size) ? block->record->normal.amount : image->bump_size;
+    }
+    if (type == PATTERN_MATERIAL_MAP) {
+        PatternMap map = {image->textures, image->texture_count};
+        part->map = arena_copy(block->arena, &map, sizeof map);
+        part->pattern.frequency = 0.0; // numbers stay as they are
+        part->pattern.wave = WAVE_RAMP;
+        part->pattern.count = (int32_t)image->texture_count;
+        block->is_plain = true; // only transforms follow
+        return part->map || eval_no_memory(block->ev, item->span);
+    }
+    return pattern_read_amount(block);
 }
 
 // `exterior` and `interior`: what is told of a point, and times what.

@@ -332,7 +332,8 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
     if (type == PATTERN_NONE && is_plain && !block->has_unsupported) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` needs a pattern before it", property->word);
     }
-    if (pattern_info(type)->blocks || (type == PATTERN_AVERAGE && has_values)) {
+    bool is_closed = type == PATTERN_MATERIAL_MAP || type == PATTERN_BUMP_MAP;
+    if (pattern_info(type)->blocks || is_closed || (type == PATTERN_AVERAGE && has_values)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand beside `%s`", property->word,
                            pattern_info(type)->word);
     }
@@ -354,5 +355,26 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
         map = kind == KIND_SLOPE_MAP ? NULL : map;
     }
     block->record->patterned.map = map;
+    return true;
+}
+
+// The next texture of a material_map.
+bool material_texture_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    ImageDesc *image = &block->record->image;
+    EntryList list = {image->textures, image->texture_count, image->texture_room};
+    PatternEntry entry = {.at = (double)list.count};
+    Desc record;
+    SchemaKind is;
+    (void)property;
+    block_defaults(block->ev, KIND_TEXTURE, &record);
+    if (!block_read(block->ev, item, KIND_TEXTURE, block->arena, &record, &is) ||
+        !keep_entry(block, KIND_TEXTURE, &record, item->span, &entry) ||
+        !add_entry(block, &list, &entry, item->span)) {
+        return false;
+    }
+    image->textures = list.items;
+    image->texture_count = list.count;
+    image->texture_room = list.capacity;
     return true;
 }

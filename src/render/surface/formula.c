@@ -53,3 +53,13 @@ double formula_pigment(const Pattern *pattern, const NoiseSource *source, Vec3 p
 {
     return rgb_luminance(rgbft_rgb(texture_pigment(source->table, &(Pigment){.pattern = pattern->image}, p)));
 }
+
+double formula_picture(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return image_value(&source->table->images[pattern->image], p);
+}
+
+double formula_material(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return image_number(&source->table->images[pattern->image], p, (uint32_t)pattern->count);
+}

@@ -13,6 +13,9 @@ double formula_value(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 void formula_paint(FormulaHost *host, const NoiseSource *source);
 void formula_unpaint(FormulaHost *host, const NoiseSource *source);
 
+// What a picture tells, and the number of a texture.
+double formula_picture(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double formula_material(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double formula_pigment(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 
 #endif

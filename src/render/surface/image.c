@@ -164,15 +164,9 @@ static double sample_alpha(const Picture *picture, size_t i)
     return ((const float *)picture->samples)[i];
 }
 
-// Column and row, from above, may be beyond the edges: a picture that is seen once continues as it ends, another begins
-// anew.
-static void pixel_get(const PreparedImage *image, int column, int row, double parts[static PARTS])
+static void pixel_colours(const PreparedImage *image, size_t pixel, double parts[static PARTS])
 {
     const Picture *picture = image->picture;
-    bool is_once = image->map.is_once;
-    column = is_once ? pressed(column, picture->width) : wrapped(column, picture->width);
-    row = is_once ? pressed(row, picture->height) : wrapped(row, picture->height);
-    size_t pixel = (size_t)row * (size_t)picture->width + (size_t)column;
     if (image->palette) {
         const PictureColour *colour = &image->palette[((const uint8_t *)picture->samples)[pixel]];
         parts[0] = colour->red;
@@ -189,6 +183,45 @@ static void pixel_get(const PreparedImage *image, int column, int row, double pa
     }
     parts[3] = 0.0;
     parts[4] = channels % 2 == 0 ? 1.0 - sample_alpha(picture, first + channels - 1) : 0.0;
+}
+
+static double grey_of(const Picture *picture, const double parts[static PARTS])
+{
+    bool is_grey = picture->channels < 3 && !picture->palette;
+    return is_grey ? parts[0] : rgb_luminance((Rgb){parts[0], parts[1], parts[2]});
+}
+
+// The one number that a pixel tells.
+static double pixel_told(const PreparedImage *image, size_t pixel, const double parts[static PARTS])
+{
+    const Picture *picture = image->picture;
+    bool has_alpha = picture->palette || picture->channels % 2 == 0, has_red = picture->channels >= 3;
+    switch ((PictureUse)image->map.use) {
+    case PICTURE_ALPHA: return has_alpha ? parts[4] : has_red ? parts[0] : grey_of(picture, parts);
+    case PICTURE_INDEX:
+    case PICTURE_RED:
+        if (picture->palette) {
+            double place = ((const uint8_t *)picture->samples)[pixel];
+            return image->map.use == PICTURE_INDEX ? place : place / 255.0;
+        }
+        return has_red && image->map.use == PICTURE_RED ? parts[0] : grey_of(picture, parts);
+    default: return grey_of(picture, parts);
+    }
+}
+
+// Column and row, from above, may be beyond the edges: a picture that is seen once continues as it ends, another begins
+// anew.
+static void pixel_get(const PreparedImage *image, int column, int row, double parts[static PARTS])
+{
+    const Picture *picture = image->picture;
+    bool is_once = image->map.is_once;
+    column = is_once ? pressed(column, picture->width) : wrapped(column, picture->width);
+    row = is_once ? pressed(row, picture->height) : wrapped(row, picture->height);
+    size_t pixel = (size_t)row * (size_t)picture->width + (size_t)column;
+    pixel_colours(image, pixel, parts);
+    if (RT_UNLIKELY(image->map.use != PICTURE_COLOURS)) {
+        parts[0] = pixel_told(image, pixel, parts);
+    }
 }
 
 // The sum of pixels from (column, row) to the right and upward, as many as there are weights.
@@ -271,23 +304,84 @@ static Rgbft colour_of(const PreparedImage *image, const double parts[static PAR
 // Pixels reach this much further right and up, in parts of one, so that rounding does not show at their edges.
 static const double reach = 1e-10;
 
-Rgbft image_colour(const PreparedImage *image, Vec3 point)
+// From the left and from below, in pixels; false where there is no picture.
+static bool find_place(const PreparedImage *image, Vec3 point, double *left, double *below)
 {
-    static const Rgbft nothing = {1.0, 1.0, 1.0, 0.0, 1.0};
     const Picture *picture = image->picture;
     Spot spot;
-    double parts[PARTS];
     if (!project(&image->map, point, &spot)) {
-        return nothing;
+        return false;
     }
-    double left = spot.across * picture->width + reach, below = spot.up * picture->height + reach;
-    if (image->map.is_once && (left >= picture->width || below >= picture->height)) {
-        return nothing;
-    }
+    *left = spot.across * picture->width + reach;
+    *below = spot.up * picture->height + reach;
+    bool is_place = *left >= 0.0 && *below >= 0.0; // and no NaN, of a point that is not finite
+    return is_place && (!image->map.is_once || !(*left >= picture->width || *below >= picture->height));
+}
+
+static void parts_at(const PreparedImage *image, double left, double below, double parts[static PARTS])
+{
     if (image->map.interpolation == INTERPOLATION_NONE) {
-        pixel_get(image, (int)left, picture->height - 1 - (int)below, parts);
+        pixel_get(image, (int)floor(left), image->picture->height - 1 - (int)floor(below), parts);
     } else {
         interpolate(image, left - 0.5, below - 0.5, parts);
     }
+}
+
+Rgbft image_colour(const PreparedImage *image, Vec3 point)
+{
+    static const Rgbft nothing = {1.0, 1.0, 1.0, 0.0, 1.0};
+    double left, below, parts[PARTS];
+    if (!find_place(image, point, &left, &below)) {
+        return nothing;
+    }
+    parts_at(image, left, below, parts);
     return colour_of(image, parts);
+}
+
+double image_value(const PreparedImage *image, Vec3 point)
+{
+    double left, below, parts[PARTS];
+    if (!find_place(image, point, &left, &below)) {
+        return 0.0;
+    }
+    parts_at(image, left, below, parts);
+    return parts[0];
+}
+
+// A number beyond the last texture begins anew, but for the first one that is beyond, which is the last. Measured.
+uint32_t image_number(const PreparedImage *image, Vec3 point, uint32_t count)
+{
+    float number = (float)image_value(image, point) * 255.0F;
+    uint32_t index = number > 0.0F ? (uint32_t)fminf(number, 65535.0F) : 0;
+    return index > count ? index % count : index == count ? count - 1 : index;
+}
+
+// Beyond the edges it begins anew, where it is there once, too. Measured.
+static double height_at(const PreparedImage *image, double left, double below)
+{
+    double parts[PARTS], width = image->picture->width, height = image->picture->height;
+    left += left < 0.0 ? width : left >= width ? -width : 0.0;
+    below += below < 0.0 ? height : 0.0;
+    parts_at(image, left, below, parts);
+    return parts[0];
+}
+
+// A normal that leans by less than this from y stands upright. Measured.
+static const double upright_least = 1e-10;
+
+// The slope of a triangle with one corner at the place and two in the row below, to its left and its right, laid out on
+// the normal's plane by what is upright there. Measured.
+Vec3 image_bumped(const PreparedImage *image, double amount, Vec3 point, Vec3 normal)
+{
+    double left, below, length = vec3_length(normal);
+    if (!find_place(image, point, &left, &below) || !(length > 0.0)) {
+        return normal;
+    }
+    double own = height_at(image, left, below);
+    double first = height_at(image, left - 1.0, below - 1.0), last = height_at(image, left + 1.0, below - 1.0);
+    Vec3 n = vec3_scale(1.0 / length, normal), across = vec3(-n.z, 0.0, n.x);
+    double across_length = vec3_length(across);
+    across = across_length > upright_least ? vec3_scale(1.0 / across_length, across) : vec3(1.0, 0.0, 0.0);
+    Vec3 bumped = vec3_add_scaled(n, -amount * (last - first) / 2.0, across);
+    return vec3_add_scaled(bumped, -amount * ((first + last) / 2.0 - own), vec3_cross(n, across));
 }

@@ -30,4 +30,10 @@ bool image_is_transparent(const PreparedImage *image);
 
 Rgbft image_colour(const PreparedImage *image, Vec3 point);
 
+// Of a picture that tells numbers: what it tells, 0 where there is none; the number of one of `count` textures; and what
+// its heights, `amount` times as high, make of a normal.
+double image_value(const PreparedImage *image, Vec3 point);
+uint32_t image_number(const PreparedImage *image, Vec3 point, uint32_t count);
+Vec3 image_bumped(const PreparedImage *image, double amount, Vec3 point, Vec3 normal);
+
 #endif

@@ -109,6 +109,8 @@ static Vec3 turned(const TextureTable *table, uint32_t index, NormalPlace outer,
     inner = keeps_length ? inner : vec3_normalize(inner);
     if (record->entries != RECORD_NONE) {
         inner = mapped(table, index, (NormalPlace){point, outer.uv}, inner, keeps_length);
+    } else if (record->pattern.type == PATTERN_BUMP_MAP) {
+        inner = image_bumped(&table->images[record->pattern.image], record->amount, point, inner);
     } else if (pattern_info((PatternType)record->pattern.type)->is_special_normal) {
         inner = vec3_add_scaled(inner, record->amount, normal_special(&record->pattern, &table->source, point));
     } else {
