@@ -26,8 +26,10 @@ struct FontFace {
 };
 
 typedef struct Walk {
+    const FT_Outline *outline;
     FontPen pen;
     void *client;
+    int contour; // -1: none yet
     double start[2], at[2];
     bool is_open;
 } Walk;
@@ -159,8 +161,8 @@ static bool table_head(FT_Face face, uint32_t index, FT_Byte bytes[10])
 
 // As POV-Ray has it. Measured: where a letter reaches left of its box by the table, also by a point that only bends a
 // curve ("u" of cyrvetic.ttf, "*" and "@" of timrom.ttf), it stands as far to the right; of one that is put together
-// (letters with accents, in most fonts) the box begins with the origin. Its box is that of all points and of the table,
-// which may be more ("j" of timrom.ttf).
+// (letters with accents, in most fonts) the table's box holds the origin. Its box is that of all points and of the
+// table, which may be more ("j" of timrom.ttf).
 static void place_at_bearing(FT_Face face, FT_Pos left, FontGlyph *glyph)
 {
     FT_Byte head[10] = {0};
@@ -172,6 +174,8 @@ static void place_at_bearing(FT_Face face, FT_Pos left, FontGlyph *glyph)
     FT_Pos moved = left - begin; // by FreeType
     if (has_head && int16_at(head) > 0) {
         told = (FT_BBox){begin, int16_at(head + 4), int16_at(head + 6), int16_at(head + 8)};
+    } else if (has_head && begin < 0) {
+        told.xMin = begin;
     }
     FT_Pos right = left - (points.xMin - moved < told.xMin ? points.xMin - moved : told.xMin);
     FT_Outline_Translate(outline, right - moved, 0);
@@ -179,6 +183,26 @@ static void place_at_bearing(FT_Face face, FT_Pos left, FontGlyph *glyph)
     glyph->low[1] = fmin((double)points.yMin, (double)told.yMin);
     glyph->high[0] = (double)right + fmax((double)(points.xMax - moved), (double)told.xMax);
     glyph->high[1] = fmax((double)points.yMax, (double)told.yMax);
+}
+
+enum { TAG_ENDS_OFF = FT_CURVE_TAG_TOUCH_X }; // which only hinting needs
+
+static bool point_is_off(const FT_Outline *outline, int point)
+{
+    return FT_CURVE_TAG(outline->tags[point]) == FT_CURVE_TAG_CONIC;
+}
+
+// As POV-Ray has it: a curve that begins beside its line begins with a point on it. One that ends there, too, closes
+// halfway between the two, and then straight. Measured ("#" and ":" of stmary10.ttf).
+static void begin_on_curves(FT_Outline *outline)
+{
+    for (int i = 0; i < outline->n_contours; i++) {
+        int first = i == 0 ? 0 : outline->contours[i - 1] + 1, last = outline->contours[i];
+        if (first < last && last < outline->n_points && point_is_off(outline, first)) {
+            int tag = FT_CURVE_TAG_ON | (point_is_off(outline, last) ? (int)TAG_ENDS_OFF : 0);
+            outline->tags[first] = (char)tag;
+        }
+    }
 }
 
 static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
@@ -196,6 +220,7 @@ static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
     }
     if (face->glyph->outline.n_points > 0) {
         place_at_bearing(face, left, glyph);
+        begin_on_curves(&face->glyph->outline);
     }
     return true;
 }
@@ -238,6 +263,7 @@ static int move_to(const FT_Vector *to, void *client)
 {
     Walk *walk = client;
     int result = end_curve(walk);
+    walk->contour++;
     walk->start[0] = walk->at[0] = unit_of(to->x);
     walk->start[1] = walk->at[1] = unit_of(to->y);
     walk->is_open = true;
@@ -251,10 +277,24 @@ static int line_to(const FT_Vector *to, void *client)
     return moves ? draw_line(walk, unit_of(to->x), unit_of(to->y)) : 0;
 }
 
+// Whether a curve to the start comes from the last point, which is off the curve as the first one was.
+static bool closes_halfway(const Walk *walk, const FT_Vector *control, double x3, double y3)
+{
+    const FT_Outline *outline = walk->outline;
+    int first = walk->contour == 0 ? 0 : outline->contours[walk->contour - 1] + 1;
+    const FT_Vector *last = &outline->points[outline->contours[walk->contour]];
+    return (outline->tags[first] & TAG_ENDS_OFF) && x3 == walk->start[0] && y3 == walk->start[1] &&
+           control->x == 2 * last->x && control->y == 2 * last->y;
+}
+
 static int conic_to(const FT_Vector *control, const FT_Vector *to, void *client)
 {
     Walk *walk = client;
     double x = unit_of(control->x), y = unit_of(control->y), x3 = unit_of(to->x), y3 = unit_of(to->y);
+    if (closes_halfway(walk, control, x3, y3)) {
+        x3 = 0.5 * (x + x3);
+        y3 = 0.5 * (y + y3);
+    }
     return draw_piece(walk, walk->at[0] + 2.0 / 3.0 * (x - walk->at[0]), walk->at[1] + 2.0 / 3.0 * (y - walk->at[1]),
                       x3 + 2.0 / 3.0 * (x - x3), y3 + 2.0 / 3.0 * (y - y3), x3, y3);
 }
@@ -268,8 +308,9 @@ static int cubic_to(const FT_Vector *first, const FT_Vector *second, const FT_Ve
 static bool font_draw(FontFace *font, FontPen pen, void *client)
 {
     static const FT_Outline_Funcs functions = {move_to, line_to, conic_to, cubic_to, 1, 0};
-    Walk walk = {.pen = pen, .client = client};
-    return FT_Outline_Decompose(&font->face->glyph->outline, &functions, &walk) == 0 && end_curve(&walk) == 0;
+    FT_Outline *outline = &font->face->glyph->outline;
+    Walk walk = {.outline = outline, .pen = pen, .client = client, .contour = -1};
+    return FT_Outline_Decompose(outline, &functions, &walk) == 0 && end_curve(&walk) == 0;
 }
 
 const FontModule rtlang_font_module = {
