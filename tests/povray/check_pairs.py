@@ -53,6 +53,7 @@ LEFT_OUT = {
     "isosurface contained_by accuracy max_gradient max_trace all_intersections evaluate": "tests/povray/shape_isosurface*.scn"
     " have them",
     "slope aoi altitude": "tests/povray/pattern_slope.scn, pattern_aoi.scn and pattern_facing*.scn have them",
+    "julia_fractal quaternion sqr cube max_iteration precision slice": "tests/povray/shape_julia_fractal*.scn have them",
     "magnet exterior": "tests/povray/pattern_fractal_*.scn have them",
     "perspective split_union": "on unless something else is said; tests/povray/*.scn have them",
     "camera light_source sphere global_settings declare": "in every scene",

@@ -39,8 +39,6 @@ HEAD = {  # shapes without a closing brace, about 1 in size
     "open lathe": "lathe { cubic_spline 6, <{0.2~0.4}, -0.9>, <0, -0.8>, <{0.6~0.9}, -0.2>, <{0.3~0.5}, 0.4>, <0.5, 0.8>, <0.6, 1>",
     "sphere sweep": "sphere_sweep { linear_spline 4, <-0.8, {-0.5~0.5}, 0>, {0.1~0.3}, <-0.2, {-0.5~0.7}, {-0.4~0.4}>, {0.1~0.3},"
                     " <0.3, {-0.7~0.5}, 0.2>, {0.1~0.3}, <0.8, {-0.3~0.3}, -0.2>, {0.05~0.2} tolerance 1e-5",
-    "Julia fractal": "julia_fractal { <{-0.1~0.1}, {-0.1~0.1}, {-0.8~-0.6}, 0.1> quaternion sqr max_iteration 3 precision 60",
-    "cube of a fractal": "julia_fractal { <-0.03, {0.2~0.4}, -0.2, {-0.3~-0.1}> cube max_iteration 3 slice <0, 0, 0, 1>, 0.01",
     "superellipsoid": "superellipsoid { <{0.2~1.8}, {0.2~1.8}> scale 0.8",
     "polygon": "polygon { 5, <-0.9, {-0.8~-0.4}, 0.13>, <{0.4~0.9}, -0.7, 0.13>, <0.8, {0.3~0.8}, 0.13>, <{-0.3~0.3}, 0, 0.13>,"
                " <-0.7, {0.5~0.8}, 0.13>",
