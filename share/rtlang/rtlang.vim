@@ -25,31 +25,32 @@ syn keyword rtlangConstant array clock clock_on false function no now off on pi 
 syn keyword rtlangColour alpha blue color colour filter gray green red rgb rgbf rgbft rgbt srgb srgbf srgbft
 syn keyword rtlangColour srgbt transmit
 syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo all_intersections altitude
-syn keyword rtlangWord ambient ambient_light angle aoi aperture area_light assumed_gamma average background
-syn keyword rtlangWord bicubic_patch black_hole blob blur_samples bounded_by box boxed bozo brick brick_size
-syn keyword rtlangWord brilliance bump_size bumps camera caustics cells charset checker circular clipped_by
-syn keyword rtlangWord color_map colour_map component cone confidence conserve_energy contained_by control0
-syn keyword rtlangWord control1 crackle crand cubic cubic_wave cylinder cylindrical dents difference diffuse
-syn keyword rtlangWord direction disc dist_exp distance emission evaluate exponent exr exterior fade_color
-syn keyword rtlangWord fade_colour fade_distance fade_power falloff finish fisheye flip focal_point fog
-syn keyword rtlangWord fog_alt fog_offset fog_type form frequency fresnel gamma global_settings gradient
-syn keyword rtlangWord granite hdr height_field hexagon hf_gray_16 hierarchy hollow image_map inside_vector
-syn keyword rtlangWord interior interpolate intersection inverse ior irid irid_wavelength isosurface jitter
-syn keyword rtlangWord jpeg julia lambda lathe leopard light_source location look_at looks_like magnet
-syn keyword rtlangWord major_radius mandel map_type marble material matrix max_gradient max_intersections
-syn keyword rtlangWord max_trace max_trace_level media_attenuation media_interaction merge mesh mesh2 metallic
-syn keyword rtlangWord metric mm_per_unit mortar no_bump_scale no_image no_radiosity no_reflection no_shadow
-syn keyword rtlangWord noise_generator normal normal_map number_of_waves object octaves offset omega omnimax
-syn keyword rtlangWord once onion open orient orientation orthographic panoramic parallel pattern perspective
-syn keyword rtlangWord pgm phase phong phong_size pigment pigment_map pigment_pattern planar plane png
-syn keyword rtlangWord point_at poly poly_wave polygon ppm premultiplied prism quadric quartic quick_color
-syn keyword rtlangWord quick_colour quilted radial radius ramp_wave reflection reflection_exponent refraction
-syn keyword rtlangWord repeat right ripples rotate roughness scale scallop_wave shadowless sine_wave sky
-syn keyword rtlangWord sky_sphere slope slope_map smooth smooth_triangle solid sor specular sphere spherical
-syn keyword rtlangWord spiral1 spiral2 split_union spotlight spotted strength sturm superellipsoid text
-syn keyword rtlangWord texture texture_map tga thickness threshold tiff tightness tiles toroidal torus
-syn keyword rtlangWord transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union
-syn keyword rtlangWord up use_color use_colour variance warp water_level waves wood wrinkles
+syn keyword rtlangWord ambient ambient_light angle aoi aperture arc_angle area_light assumed_gamma average
+syn keyword rtlangWord background bicubic_patch black_hole blob blur_samples bounded_by box boxed bozo brick
+syn keyword rtlangWord brick_size brilliance bump_size bumps camera caustics cells charset checker circular
+syn keyword rtlangWord clipped_by color_map colour_map component cone confidence conserve_energy contained_by
+syn keyword rtlangWord control0 control1 crackle crand cubic cubic_wave cylinder cylindrical dents difference
+syn keyword rtlangWord diffuse direction disc dist_exp distance emission evaluate exponent exr exterior
+syn keyword rtlangWord fade_color fade_colour fade_distance fade_power falloff falloff_angle finish fisheye
+syn keyword rtlangWord flip focal_point fog fog_alt fog_offset fog_type form frequency fresnel gamma
+syn keyword rtlangWord global_settings gradient granite hdr height_field hexagon hf_gray_16 hierarchy hollow
+syn keyword rtlangWord image_map inside_vector interior interpolate intersection inverse ior irid
+syn keyword rtlangWord irid_wavelength isosurface jitter jpeg julia lambda lathe leopard light_source location
+syn keyword rtlangWord look_at looks_like magnet major_radius mandel map_type marble material matrix
+syn keyword rtlangWord max_gradient max_intersections max_trace max_trace_level media_attenuation
+syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
+syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
+syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
+syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
+syn keyword rtlangWord pigment_map pigment_pattern planar plane png point_at poly poly_wave polygon ppm
+syn keyword rtlangWord premultiplied prism quadric quartic quick_color quick_colour quilted radial radius
+syn keyword rtlangWord rainbow ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
+syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slope slope_map smooth
+syn keyword rtlangWord smooth_triangle solid sor specular sphere spherical spiral1 spiral2 split_union
+syn keyword rtlangWord spotlight spotted strength sturm superellipsoid text texture texture_map tga thickness
+syn keyword rtlangWord threshold tiff tightness tiles toroidal torus transform translate triangle
+syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
+syn keyword rtlangWord variance warp water_level waves width wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

@@ -60,6 +60,7 @@ void scene_fini(Scene *scene)
 {
     ARRAY_FREE(&scene->sky);
     ARRAY_FREE(&scene->fogs);
+    ARRAY_FREE(&scene->rainbows);
     ARRAY_FREE(&scene->lights);
     ARRAY_FREE(&scene->finishes);
     ARRAY_FREE(&scene->materials);
@@ -260,7 +261,7 @@ size_t scene_picture_bytes(const Scene *scene)
 size_t scene_bytes(const Scene *scene)
 {
 #define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
-    return LIST_BYTES(scene->sky) + LIST_BYTES(scene->fogs) + LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) +
+    return LIST_BYTES(scene->sky) + LIST_BYTES(scene->fogs) + LIST_BYTES(scene->rainbows) + LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) +
            LIST_BYTES(scene->finishes) + LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) +
            LIST_BYTES(scene->slope_entries) + LIST_BYTES(scene->normal_entries) + LIST_BYTES(scene->normals) +
            LIST_BYTES(scene->texture_entries) + LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) +
@@ -289,6 +290,11 @@ bool scene_add_mesh(Scene *scene, Mesh *mesh)
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer)
 {
     return ARRAY_PUSH(&scene->sky, *layer);
+}
+
+bool scene_add_rainbow(Scene *scene, const Rainbow *rainbow)
+{
+    return ARRAY_PUSH(&scene->rainbows, *rainbow);
 }
 
 bool scene_add_fog(Scene *scene, const Fog *fog)
