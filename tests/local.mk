@@ -390,6 +390,7 @@ lang_cases = \
   %D%/lang/includes.test \
   %D%/lang/interior.test \
   %D%/lang/pattern_slope.test \
+  %D%/lang/rainbow.test \
   %D%/lang/lenient.test \
   %D%/lang/light.test \
   %D%/lang/limits.test \

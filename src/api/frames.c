@@ -208,7 +208,7 @@ static bool read_frame(rt_session *session, Scene *scene, Said *said)
     rt_callbacks callbacks = session->callbacks;
     DiagSink diags = session->diags;
     bool is_json = session->is_json;
-    size_t fogs = scene->fogs.count, layers = scene->sky.count;
+    size_t fogs = scene->fogs.count, rainbows = scene->rainbows.count, layers = scene->sky.count;
     Frame frame = {.source = source_open_text(session->sources, source_map_name(session->sources, session->frames.source),
                                               session->frames.slice, strlen(session->frames.slice)),
                    .scene = scene};
@@ -234,7 +234,7 @@ static bool read_frame(rt_session *session, Scene *scene, Said *said)
     bool is_in_order = session->frames.is_past ? session->frames.is_in_order
                                                : scene->shape_count == session->frames.reading_shapes;
     fine = fine && !said->no_memory && !said->text.failed;
-    return fine && is_in_order && scene->fogs.count == fogs && scene->sky.count == layers;
+    return fine && is_in_order && scene->fogs.count == fogs && scene->rainbows.count == rainbows && scene->sky.count == layers;
 }
 
 // Camera, lights and settings as text, without the rest of the scene.

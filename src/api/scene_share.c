@@ -166,6 +166,9 @@ static bool scene_fits(rt_session *session)
     if (scene->compounds.count > 0) {
         return refuse(session, find_shape(scene, NULL), "patterns, layers and interiors");
     }
+    if (scene->rainbows.count > 0) {
+        return refuse(session, scene->rainbows.items[0].span, "a rainbow");
+    }
     if (scene->fogs.count > 0) {
         return refuse(session, scene->fogs.items[0].span, "fog");
     }

@@ -24,8 +24,8 @@ const char *forward_misfit(const Prepared *prepared, const ForwardOptions *optio
     const PreparedCamera *camera = &prepared->camera;
     const unsigned unknown =
         (unsigned)RENDER_PIGMENTS | RENDER_TEXTURES | RENDER_NORMALS | RENDER_INTERIORS | RENDER_TRANSPARENCY | RENDER_EXPONENT;
-    if (prepared->scene->fogs.count > 0) {
-        return "fog";
+    if (scene_has_haze(prepared->scene)) {
+        return "fog or a rainbow";
     }
     if (prepared->features & unknown) {
         return "patterns, bumps, layers, interiors, transparency, or reflection with an exponent";

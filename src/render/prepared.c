@@ -254,7 +254,7 @@ static unsigned needed_features(const Prepared *p, const Scene *scene, int threa
     features |= scene->normals.count ? (unsigned)RENDER_NORMALS : 0;
     features |= scene->interiors.count ? (unsigned)RENDER_INTERIORS : 0;
     features |= scene->sky.count ? (unsigned)RENDER_SKY : 0;
-    features |= scene->fogs.count ? (unsigned)(RENDER_FOG | RENDER_INTERIORS) : 0;
+    features |= scene_has_haze(scene) ? (unsigned)(RENDER_FOG | RENDER_INTERIORS) : 0;
     for (size_t i = 0; i < p->finish_count; i++) {
         features |= finish_features(&p->finishes[i]);
     }

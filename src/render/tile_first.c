@@ -53,7 +53,7 @@ static uint64_t find_plain(const Prepared *p, const TileHits *hits, uint64_t met
 // The light of a ray whose end shines so, and of the fog on its way.
 static Rgb through_fog(const Prepared *p, const SphereTile *rays, unsigned i, double way, Rgb own)
 {
-    if (p->scene->fogs.count == 0) {
+    if (!scene_has_haze(p->scene)) {
         return rgb_add(rgb_grey(0.0), own);
     }
     SphereRay ray = sphere_tile_ray(rays, i);

@@ -408,6 +408,13 @@ typedef struct FogDesc {
     int octaves;
 } FogDesc;
 
+typedef struct RainbowDesc {
+    Vec3 direction, up;
+    double angle, width, distance, jitter, arc_angle, falloff_angle;
+    const PatternMap *map; // NULL: nothing is seen
+    bool has_direction;
+} RainbowDesc;
+
 typedef struct SettingsDesc {
     Rgb ambient_light;
     double adc_bailout;
@@ -474,6 +481,7 @@ typedef union Desc {
     BackgroundDesc background;
     SkySphereDesc sky;
     FogDesc fog;
+    RainbowDesc rainbow;
     SettingsDesc settings;
     PigmentDesc pigment;
     FinishDesc finish;

@@ -326,6 +326,26 @@ static void dump_fog(const Fog *fog, TextBuffer *out)
     text_append(out, " }\n");
 }
 
+static void dump_rainbow(const Scene *scene, const Rainbow *rainbow, TextBuffer *out)
+{
+    dump_vector(out, "rainbow { direction ", rainbow->direction);
+    dump_vector(out, " up ", rainbow->up);
+    dump_number(out, " angle ", rainbow->angle);
+    dump_number(out, " width ", rainbow->width);
+    dump_number(out, " distance ", rainbow->distance);
+    dump_number(out, " jitter ", rainbow->jitter);
+    dump_number(out, " arc_angle ", 2.0 * rainbow->arc);
+    dump_number(out, " falloff_angle ", 2.0 * rainbow->falloff);
+    text_append(out, "\n  color_map {");
+    uint32_t entry = scene->patterns.items[rainbow->pattern].entries;
+    for (; entry != RECORD_NONE; entry = scene->pigment_entries.items[entry].next) {
+        dump_number(out, " [", scene->pigment_entries.items[entry].at);
+        dump_rgbft(out, " ", pigment_colour(&scene->pigment_entries.items[entry].pigment));
+        text_append(out, "]");
+    }
+    text_append(out, " } }\n");
+}
+
 void scene_dump(const Scene *scene, TextBuffer *out)
 {
     dump_settings(&scene->settings, out);
@@ -350,6 +370,9 @@ void scene_dump(const Scene *scene, TextBuffer *out)
     dump_meshes(scene, out);
     dump_shapes(scene, out);
     dump_sky(scene, out);
+    for (size_t i = 0; i < scene->rainbows.count; i++) {
+        dump_rainbow(scene, &scene->rainbows.items[i], out);
+    }
     if (scene->camera.bumps) { // which come last, behind those of all textures
         dump_camera(&scene->camera, out);
     }

@@ -56,7 +56,8 @@ void scene_init(Scene *scene)
 
 // All its lists, and the indices of those that keep each different record once.
 #define SCENE_LISTS(X)                                                                                                 \
-    X(sky) X(fogs) X(lights) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps) X(warps)         \
+    X(sky) X(fogs) X(rainbows) X(lights) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps)       \
+    X(warps)                                                                                                           \
     X(picture_sources) X(picture_shades) X(image_maps) X(pictures) X(slope_entries) X(normal_entries) X(normals)       \
     X(texture_entries) X(textures) X(interiors) X(compounds) X(spheres) X(sphere_runs) X(planes) X(parts) X(meshes)    \
     X(face_materials) X(blobs) X(nodes) X(composites) X(start_shapes) X(bodies)
@@ -232,6 +233,11 @@ size_t scene_bytes(const Scene *scene)
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer)
 {
     return ARRAY_PUSH(&scene->sky, *layer);
+}
+
+bool scene_add_rainbow(Scene *scene, const Rainbow *rainbow)
+{
+    return ARRAY_PUSH(&scene->rainbows, *rainbow);
 }
 
 bool scene_add_fog(Scene *scene, const Fog *fog)

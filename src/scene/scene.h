@@ -111,6 +111,18 @@ typedef struct Fog {
     Span span;
 } Fog;
 
+// Colours by the angle between a ray and the sun's light.
+typedef struct Rainbow {
+    Vec3 direction, up;      // as written: of that light, and where the middle of an arc is
+    Vec3 ahead, top, across; // unit vectors: `direction`, of `up` what is at right angles to it, and to both
+    double angle, width;        // of the bow's middle and the bow, degrees; width is not 0
+    double arc, falloff;        // to each side of `up`, degrees: where the arc ends, and where it begins to fade out
+    double distance;            // > 0: exp(-1) of the light is left after it
+    double jitter;
+    uint32_t pattern; // one of Scene.patterns: the colours from x = 0 to x = 1
+    Span span;
+} Rainbow;
+
 // How the values of the picture relate to light, see docs/language.md, "Gamma".
 typedef enum GammaModel {
     GAMMA_LINEAR, // the working space is linear light
@@ -169,6 +181,7 @@ typedef struct Scene {
     Rgb sky_emission;   // what their light is multiplied with
     Span sky_span;
     ARRAY(Fog) fogs;
+    ARRAY(Rainbow) rainbows;
     bool has_camera; // the scene said so; else camera is the language's default
     Camera camera;
     ARRAY(Light) lights;
@@ -288,6 +301,12 @@ static inline uint64_t scene_shapes_in_all(const Scene *scene)
 // Add a record; `order` and shape_count are set here. False when out of memory.
 bool scene_add_light(Scene *scene, const Light *light) RT_MUST_CHECK;
 bool scene_add_fog(Scene *scene, const Fog *fog) RT_MUST_CHECK;
+bool scene_add_rainbow(Scene *scene, const Rainbow *rainbow) RT_MUST_CHECK;
+// Whether light is lost on the way of rays outside of solid shapes.
+static inline bool scene_has_haze(const Scene *scene)
+{
+    return scene->fogs.count > 0 || scene->rainbows.count > 0;
+}
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer) RT_MUST_CHECK; // below the others
 bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex material, uint64_t source) RT_MUST_CHECK;
 // A sphere's place in the order of declaration and where it was written; the one at a place, or RECORD_NONE.

@@ -517,6 +517,26 @@ static const SchemaProperty fog_properties[] = {
 static const FogDesc fog_defaults = {
     .transform = IDENTITY, .type = 1, .up = {0, 1, 0}, .turb_depth = 0.5, .lambda = 2.0, .omega = 0.5, .octaves = 6};
 
+static const SchemaProperty rainbow_properties[] = {
+    {"direction", TYPE_VECTOR, AT(RainbowDesc, direction), GIVEN(RainbowDesc, has_direction),
+     .doc = "of the sun's light; any length but 0; must be there"},
+    {"angle", TYPE_NUMBER, AT(RainbowDesc, angle), .doc = "degrees from it to the middle of the bow"},
+    {"width", TYPE_NUMBER, AT(RainbowDesc, width), .doc = "of the bow in degrees; 0: no rainbow"},
+    {"distance", TYPE_NUMBER, AT(RainbowDesc, distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "as of fog; 0: no rainbow"},
+    {"color_map", TYPE_BLOCK, ACTION_RAINBOW_MAP, .doc = "colours from inside to outside; without it no rainbow"},
+    {"colour_map", TYPE_BLOCK, ACTION_RAINBOW_MAP, .doc = "the same"},
+    {"jitter", TYPE_NUMBER, AT(RainbowDesc, jitter), .doc = "how far rays see other colours by chance"},
+    {"up", TYPE_VECTOR, AT(RainbowDesc, up), .doc = "where the middle of an arc is"},
+    {"arc_angle", TYPE_NUMBER, AT(RainbowDesc, arc_angle), .range = {RANGE_FAULT, false, 0.0, 360.0},
+     .doc = "of the arc"},
+    {"falloff_angle", TYPE_NUMBER, AT(RainbowDesc, falloff_angle), .range = {RANGE_FAULT, false, 0.0, 360.0},
+     .doc = "of what of it does not fade out; not above `arc_angle`"},
+};
+
+static const RainbowDesc rainbow_defaults = {
+    .up = {0, 1, 0}, .distance = 1e7, .arc_angle = 360.0, .falloff_angle = 360.0};
+
 static const SchemaProperty settings_properties[] = {
     {"assumed_gamma", TYPE_ACTION, ACTION_ASSUMED_GAMMA,
      .doc = "what colour values mean: a number above 0, or `srgb`; the first counts"},
@@ -1163,6 +1183,11 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                   .arguments = LIST(fog_arguments),
                   .groups = {LIST(fog_properties), TRANSFORMS},
                   .doc = "There may be several. Transforms turn `up`."},
+    [KIND_RAINBOW] = {.word = "rainbow",
+                      .size = sizeof(RainbowDesc),
+                      .defaults = &rainbow_defaults,
+                      .groups = {LIST(rainbow_properties)},
+                      .doc = "There may be several; fog lies before them."},
     [KIND_GLOBAL_SETTINGS] = {.word = "global_settings",
                               .what = "global settings",
                               .size = sizeof(SettingsDesc),
@@ -1343,7 +1368,6 @@ static const SchemaUnsupported unsupported[] = {
     {"ovus", true, "use a sphere with `scale`", NULL},
     {"parametric", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
-    {"rainbow", true, NULL, "the rainbow"},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},
     {"iff", false, "save the picture as PNG", NULL},

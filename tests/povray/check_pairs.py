@@ -52,6 +52,7 @@ LEFT_OUT = {
     "tiles": "tests/povray/texture_tiles*.scn have them",
     "isosurface contained_by accuracy max_gradient max_trace all_intersections evaluate": "tests/povray/shape_isosurface*.scn"
     " have them",
+    "rainbow arc_angle falloff_angle width": "tests/povray/rainbow*.scn have them",
     "slope aoi altitude": "tests/povray/pattern_slope.scn, pattern_aoi.scn and pattern_facing*.scn have them",
     "julia_fractal quaternion sqr cube max_iteration precision slice": "tests/povray/shape_julia_fractal*.scn have them",
     "magnet exterior": "tests/povray/pattern_fractal_*.scn have them",

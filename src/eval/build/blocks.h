@@ -17,6 +17,7 @@ struct ObjectState {
     const TextureDesc *defaults;                // of #default
     const SkySphereDesc *sky; // the last one so far, in the program's memory; NULL: none
     Span sky_span;
+    struct KeptRainbow *rainbows, *last_rainbow; // in order, likewise
     const NormalDesc *camera_normal; // of the last camera so far, likewise
     uint32_t groups;       // unions so far that say what their members are filled with
     bool may_lack_weights; // the map that is read belongs to `average`
@@ -285,6 +286,18 @@ bool sky_close(Block *block) RT_MUST_CHECK;
 bool sky_place(Eval *ev, const SkySphereDesc *sky, Span span) RT_MUST_CHECK;
 bool fog_close(Block *block) RT_MUST_CHECK;
 bool fog_place(Eval *ev, const FogDesc *fog, Span span) RT_MUST_CHECK;
+
+// rainbow.c
+typedef struct KeptRainbow {
+    RainbowDesc desc;
+    Span span;
+    struct KeptRainbow *next;
+} KeptRainbow;
+bool rainbow_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool rainbow_close(Block *block) RT_MUST_CHECK;
+bool rainbow_keep(Eval *ev, const RainbowDesc *rainbow, Span span) RT_MUST_CHECK;
+// Once the scene has its sky.
+bool rainbows_finish(Eval *ev) RT_MUST_CHECK;
 
 // image.c
 // What the braces of image_pattern, bump_map or material_map say; NULL: a fault is reported.

@@ -185,6 +185,7 @@ static bool place_record(Eval *ev, const AstNode *item, SchemaKind is, const Des
     case KIND_CAMERA: return camera_place(ev, &record->camera, item->span);
     case KIND_SKY_SPHERE: return sky_place(ev, &record->sky, item->span);
     case KIND_FOG: return fog_place(ev, &record->fog, item->span);
+    case KIND_RAINBOW: return rainbow_keep(ev, &record->rainbow, item->span);
     case KIND_BACKGROUND:
     case KIND_GLOBAL_SETTINGS: return settings_place(ev, is, record);
     default: return object_place(ev, is, record);
@@ -214,7 +215,7 @@ static bool place_name(Eval *ev, const AstNode *item)
 bool object_is_statement(SchemaKind kind)
 {
     return schema_kind(kind)->is_object || kind == KIND_CAMERA || kind == KIND_BACKGROUND ||
-           kind == KIND_SKY_SPHERE || kind == KIND_FOG || kind == KIND_GLOBAL_SETTINGS;
+           kind == KIND_SKY_SPHERE || kind == KIND_FOG || kind == KIND_RAINBOW || kind == KIND_GLOBAL_SETTINGS;
 }
 
 static bool begins_statement(const Eval *ev, const AstNode *item)
@@ -251,7 +252,8 @@ bool eval_place(Eval *ev, const AstNode *item)
         return is_fine;
     }
     ArenaMark mark = scratch_mark(ev);
-    Arena *arena = kind == KIND_SKY_SPHERE ? &ev->program : &ev->scratch; // a sky is kept until the end
+    bool is_kept = kind == KIND_SKY_SPHERE || kind == KIND_RAINBOW; // until the end
+    Arena *arena = is_kept ? &ev->program : &ev->scratch;
     Desc record;
     SchemaKind is;
     block_defaults(ev, kind, &record);

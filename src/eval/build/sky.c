@@ -65,7 +65,7 @@ static bool sky_finish(Eval *ev)
 
 bool objects_finish(Eval *ev)
 {
-    return sky_finish(ev) && camera_finish(ev);
+    return sky_finish(ev) && rainbows_finish(ev) && camera_finish(ev);
 }
 
 // ---- fog

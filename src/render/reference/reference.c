@@ -115,6 +115,9 @@ bool study_covers(const Prepared *p, DiagSink *diags)
             break;
         }
     }
+    if (scene->rainbows.count > 0) {
+        covers = refuse(diags, scene->rainbows.items[0].span, "a rainbow");
+    }
     if (scene->fogs.count > 0) {
         covers = refuse(diags, scene->fogs.items[0].span, "fog");
     }

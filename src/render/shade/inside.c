@@ -74,7 +74,7 @@ static MediumRegion region_of(const Prepared *prepared, uint64_t body, MaterialI
     uint32_t interior =
         material & MATERIAL_COMPOUND ? prepared->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
     return (MediumRegion){body, interior,
-                          prepared->scene->fogs.count > 0 && !scene_is_hollow(prepared->scene, material)};
+                          scene_has_haze(prepared->scene) && !scene_is_hollow(prepared->scene, material)};
 }
 
 // Whether a shape is one of Scene.start_shapes.
@@ -150,7 +150,7 @@ static void ask_start_shapes(const Prepared *prepared, Vec3 point, Found *found)
 void prepared_inside(const Prepared *prepared, Vec3 point, MediumList *list)
 {
     list->count = 0;
-    if (prepared->scene->interiors.count > 0 || prepared->scene->fogs.count > 0) {
+    if (prepared->scene->interiors.count > 0 || scene_has_haze(prepared->scene)) {
         Found found = {.list = list};
         walk(prepared, (Ray){point, odd_direction}, &found);
         walk(prepared, (Ray){point, vec3_neg(odd_direction)}, &found);

@@ -188,7 +188,7 @@ RT_ALWAYS_INLINE MediumStack shade_cross(const Prepared *p, unsigned features, S
     MediumStack behind = at->before;
     at->leaves = medium_leave(at->media, &behind, body);
     if (!at->leaves) {
-        bool has_fog = (features & RENDER_FOG) && p->scene->fogs.count > 0;
+        bool has_fog = (features & RENDER_FOG) && scene_has_haze(p->scene);
         bool is_solid = has_fog && !scene_is_hollow(p->scene, at->material);
         behind = medium_enter(at->media, behind, (MediumRegion){body, at->interior, is_solid});
     }

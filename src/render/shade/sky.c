@@ -4,6 +4,8 @@
 #include "math/extreme.h"
 #include "render/shade/sky.h"
 
+#include "render/shade/rainbow.h"
+
 #include <math.h>
 
 static const double half_pi = 1.57079632679489661923;
@@ -120,6 +122,11 @@ FogShare fog_between(const Prepared *p, const Ray *ray, double way)
         Rgb tint = rgb_add(rgb_grey(1.0 - fog->colour.filter), rgb_scale(fog->colour.filter, colour));
         sum.through = rgb_mul(sum.through, rgb_scale(left, tint));
         sum.own = rgb_add_scaled(sum.own, 1.0 - left, colour);
+    }
+    if (p->scene->rainbows.count > 0) {
+        FogShare behind = rainbow_between(p, ray, way);
+        sum.own = rgb_add(sum.own, rgb_mul(sum.through, behind.own));
+        sum.through = rgb_mul(sum.through, behind.through);
     }
     return sum;
 }
