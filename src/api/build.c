@@ -109,21 +109,22 @@ void shape_list_warn(const ShapeList *list, size_t element, const char *why)
     diag_report(&list->session->diags, DIAG_W0348, shape_list_span(list, element), "%s", why);
 }
 
-typedef const char *(*MakePart)(const void *shapes, size_t element, Part *part);
+typedef const char *(*MakePart)(const void *shapes, size_t element, Primitive *primitive);
 
 // False: nothing is left to add, after a fault or not (*fine).
-static bool part_make(const ShapeList *list, MakePart make, const void *shapes, size_t element, Part *part, bool *fine)
+static bool part_make(const ShapeList *list, MakePart make, const void *shapes, size_t element, Primitive *primitive,
+                      bool *fine)
 {
-    *part = part_empty(list->base + element);
-    const char *why_nothing = make(shapes, element, part);
+    *primitive = part_empty(list->base + element);
+    const char *why_nothing = make(shapes, element, primitive);
     if (why_nothing) {
         shape_list_warn(list, element, why_nothing);
         return false;
     }
-    *fine = part_finish(part);
+    *fine = part_finish(primitive);
     if (!*fine) {
         diag_report(&list->session->diags, DIAG_E0460, shape_list_span(list, element), "this %s cannot be represented",
-                    primitive_class(part->kind)->word);
+                    primitive_class(primitive->kind)->word);
     }
     return *fine;
 }
@@ -132,17 +133,18 @@ static bool parts_add(const ShapeList *list, MakePart make, const void *shapes, 
 {
     Scene *scene = &list->session->scene;
     uint32_t shape_count = scene->shape_count;
-    bool fine = shape_list_has_room(list, count, sizeof(Part));
-    if (fine && !ARRAY_RESERVE(&scene->parts, scene->parts.count + count)) {
+    bool fine = shape_list_has_room(list, count, sizeof(Primitive));
+    if (fine && !ARRAY_RESERVE(&scene->primitives, scene->primitives.count + count)) {
         return session_no_room(list->session, shape_list_span(list, 0));
     }
     for (size_t i = 0; fine && i < count; i++) {
-        Part part;
-        if (!part_make(list, make, shapes, i, &part, &fine)) {
+        Primitive primitive;
+        if (!part_make(list, make, shapes, i, &primitive, &fine)) {
             continue;
         }
         Material material = look_material(look, i, list->finish);
-        fine = (scene_add_material_record(scene, &material, &part.material) && scene_add_part(scene, &part)) ||
+        fine = (scene_add_material_record(scene, &material, &primitive.material) &&
+                scene_add_primitive(scene, &primitive)) ||
                session_no_room(list->session, shape_list_span(list, i));
     }
     fine = fine && (scene_memory_has(scene, 0, 0, session_memory_granted(list->session)) ||
@@ -153,14 +155,15 @@ static bool parts_add(const ShapeList *list, MakePart make, const void *shapes, 
     return fine;
 }
 
-static const char *make_rod(const void *shapes, size_t element, Part *part)
+static const char *make_rod(const void *shapes, size_t element, Primitive *primitive)
 {
     const rt_rods *rods = shapes;
     Vec3 base = array_vector(&rods->bases, element, 0), cap = array_vector(&rods->caps, element, 0);
     double radius = array_number(&rods->base_radii, element, 0);
     return array_is_given(&rods->cap_radii)
-               ? part_make_cone(part, base, radius, cap, array_number(&rods->cap_radii, element, 0), rods->open)
-               : part_make_cylinder(part, base, cap, radius, rods->open);
+               ? primitive_make_cone(primitive, base, radius, cap, array_number(&rods->cap_radii, element, 0),
+                                     rods->open)
+               : primitive_make_cylinder(primitive, base, cap, radius, rods->open);
 }
 
 static bool rods_have_ends(rt_session *session, const rt_rods *rods, uint64_t base)
@@ -197,7 +200,7 @@ rt_status rt_add_rods(rt_session *session, const rt_rods *rods)
     return session_finish_call(session, fine);
 }
 
-static const char *make_triangle(const void *shapes, size_t element, Part *part)
+static const char *make_triangle(const void *shapes, size_t element, Primitive *primitive)
 {
     const rt_triangles *triangles = shapes;
     Vec3 corners[3], normals[3];
@@ -206,7 +209,8 @@ static const char *make_triangle(const void *shapes, size_t element, Part *part)
         corners[k] = array_vector(&triangles->corners, element, 3 * k);
         normals[k] = is_smooth ? array_vector(&triangles->normals, element, 3 * k) : corners[k];
     }
-    return is_smooth ? part_make_smooth_triangle(part, corners, normals) : part_make_triangle(part, corners);
+    return is_smooth ? primitive_make_smooth_triangle(primitive, corners, normals)
+                     : primitive_make_triangle(primitive, corners);
 }
 
 rt_status rt_add_triangles(rt_session *session, const rt_triangles *triangles)

@@ -37,23 +37,23 @@ typedef enum Without {
 } Without;
 
 // Each feature that a scene may have or lack: why it is left out, and which of its costs are known.
-#define PARTS(PART)                                                                                                  \
-    PART("spheres one by one", TRACE_SPHERES, "no sphere, or so many that they stand in a tree", WITHOUT_NOTHING)    \
-    PART("tree of spheres", TRACE_SPHERE_BVH, "no sphere", WITHOUT_NOTHING)                                          \
-    PART("planes", TRACE_PLANES, "no plane", WITHOUT_NOTHING)                                                        \
-    PART("other shapes", TRACE_PARTS, "nothing but spheres and planes, none stretched", WITHOUT_NOTHING)             \
-    PART("shadow rays", RENDER_SHADOWS, "no light casts shadows", WITHOUT_SHADOWS)                                   \
-    PART("lights of a form", RENDER_LIGHTS, "no spotlight, area light or light that fades", WITHOUT_NOTHING)         \
-    PART("highlights", RENDER_HIGHLIGHTS, "no finish has phong or specular", WITHOUT_HIGHLIGHTS)                     \
-    PART("brilliance", RENDER_BRILLIANCE, "no finish has it, and none is lit from behind", WITHOUT_NOTHING)          \
-    PART("mirrored rays", RENDER_REFLECTION, "no finish reflects", WITHOUT_REFLECTION)                               \
-    PART("reflection exponent", RENDER_EXPONENT, "no finish has it", WITHOUT_NOTHING)                                \
-    PART("rays through surfaces", RENDER_TRANSPARENCY, "no pigment lets light through", WITHOUT_NOTHING)             \
-    PART("patterns", RENDER_PIGMENTS, "each texture is of one colour", WITHOUT_NOTHING)                              \
-    PART("layers", RENDER_TEXTURES, "each texture is one layer that lets nothing through", WITHOUT_NOTHING)          \
-    PART("interiors", RENDER_INTERIORS, "nothing bends light or asks what it is inside of", WITHOUT_NOTHING)         \
-    PART("sky", RENDER_SKY, "no sky_sphere", WITHOUT_SKY)                                                            \
-    PART("fog", RENDER_FOG, "no fog", WITHOUT_FOG)                                                                   \
+#define PARTS(PART)                                                                                                    \
+    PART("spheres one by one", TRACE_SPHERES, "no sphere, or so many that they stand in a tree", WITHOUT_NOTHING)      \
+    PART("tree of spheres", TRACE_SPHERE_BVH, "no sphere", WITHOUT_NOTHING)                                            \
+    PART("planes", TRACE_PLANES, "no plane", WITHOUT_NOTHING)                                                          \
+    PART("other shapes", TRACE_PRIMITIVES, "nothing but spheres and planes, none stretched", WITHOUT_NOTHING)          \
+    PART("shadow rays", RENDER_SHADOWS, "no light casts shadows", WITHOUT_SHADOWS)                                     \
+    PART("lights of a form", RENDER_LIGHTS, "no spotlight, area light or light that fades", WITHOUT_NOTHING)           \
+    PART("highlights", RENDER_HIGHLIGHTS, "no finish has phong or specular", WITHOUT_HIGHLIGHTS)                       \
+    PART("brilliance", RENDER_BRILLIANCE, "no finish has it, and none is lit from behind", WITHOUT_NOTHING)            \
+    PART("mirrored rays", RENDER_REFLECTION, "no finish reflects", WITHOUT_REFLECTION)                                 \
+    PART("reflection exponent", RENDER_EXPONENT, "no finish has it", WITHOUT_NOTHING)                                  \
+    PART("rays through surfaces", RENDER_TRANSPARENCY, "no pigment lets light through", WITHOUT_NOTHING)               \
+    PART("patterns", RENDER_PIGMENTS, "each texture is of one colour", WITHOUT_NOTHING)                                \
+    PART("layers", RENDER_TEXTURES, "each texture is one layer that lets nothing through", WITHOUT_NOTHING)            \
+    PART("interiors", RENDER_INTERIORS, "nothing bends light or asks what it is inside of", WITHOUT_NOTHING)           \
+    PART("sky", RENDER_SKY, "no sky_sphere", WITHOUT_SKY)                                                              \
+    PART("fog", RENDER_FOG, "no fog", WITHOUT_FOG)                                                                     \
     PART("bumps", RENDER_NORMALS, "no normal", WITHOUT_NOTHING)
 
 typedef struct Feature {

@@ -25,10 +25,10 @@ static bool probe_closest(const void *geometry, Vec3 origin, Vec3 direction, con
     if (from) {
         start = (RayStart){from->shape, vec3_dot(direction, from->normal) < 0.0, 0};
     }
-    if (!geometry_closest(geometry, TRACE_PARTS, ray, start, (double)INFINITY, &hit)) {
+    if (!geometry_closest(geometry, TRACE_PRIMITIVES, ray, start, (double)INFINITY, &hit)) {
         return false;
     }
-    Surface surface = geometry_surface(geometry, TRACE_PARTS, ray, hit);
+    Surface surface = geometry_surface(geometry, TRACE_PRIMITIVES, ray, hit);
     *met = (EvalHit){surface.point, surface.normal, hit.shape, surface.order};
     return true;
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "api/session.h"
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "scene/range.h"
 #include "scene/recentre.h"
 
@@ -158,10 +158,10 @@ static bool run_fits(rt_session *session)
 static bool scene_fits(rt_session *session)
 {
     const Scene *scene = &session->scene;
-    if (scene->parts.count > 0) {
+    if (scene->primitives.count > 0) {
         char what[128];
-        snprintf(what, sizeof what, "this %s", part_name(&scene->parts.items[0]));
-        return refuse(session, scene_source_span(scene->parts.items[0].source), what);
+        snprintf(what, sizeof what, "this %s", primitive_name(&scene->primitives.items[0]));
+        return refuse(session, scene_source_span(scene->primitives.items[0].source), what);
     }
     if (scene->compounds.count > 0) {
         return refuse(session, find_shape(scene, NULL), "patterns, layers and interiors");

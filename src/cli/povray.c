@@ -132,7 +132,7 @@ static bool find_part(double start, double end, int size, int *first, int *count
     return *count >= 1 && last <= size;
 }
 
-static rt_status follow_part(rt_session *session, const PovraySettings *settings, Options *options)
+static rt_status follow_primitive(rt_session *session, const PovraySettings *settings, Options *options)
 {
     int *crop = options->crop;
     options->width = settings->width;
@@ -301,7 +301,7 @@ static rt_status follow(rt_session *session, Povray *povray, Options *options, V
     options->output = povray->output;
     follow_picture(settings, options);
     follow_frames(settings, options);
-    rt_status status = follow_part(session, settings, options);
+    rt_status status = follow_primitive(session, settings, options);
     status = status ? status : follow_lists(session, settings, options);
     status = status ? status : write_ini(session, povray);
     status = status ? status : open_files(session, povray, voice);

@@ -60,8 +60,8 @@ const char *forward_misfit(const Prepared *prepared, const ForwardOptions *optio
             return "`crand` and `irid`";
         }
     }
-    for (size_t i = 0; i < prepared->scene->parts.count; i++) {
-        if (prepared->scene->parts.items[i].hidden) {
+    for (size_t i = 0; i < prepared->scene->primitives.count; i++) {
+        if (prepared->scene->primitives.items[i].hidden) {
             return "objects that some rays do not see";
         }
     }

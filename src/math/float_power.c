@@ -15,7 +15,7 @@
 
 #include "base/attributes.h"
 
-enum { MANTISSA_BITS = 23, PART_BITS = 7, PARTS = 1 << PART_BITS, ONE = 127, TERMS = 5 };
+enum { MANTISSA_BITS = 23, PRIMITIVE_BITS = 7, PARTS = 1 << PRIMITIVE_BITS, ONE = 127, TERMS = 5 };
 // The octaves that have a place in the tables: what a picture shows.
 enum { LEAST_SCALE = -24, SCALES = 30 };
 
@@ -29,7 +29,7 @@ typedef struct FloatPower {
     double terms[TERMS];   // binomial coefficients of the exponent, from the first
 } FloatPower;
 
-static double part_middle(unsigned part)
+static double primitive_middle(unsigned part)
 {
     return 1.0 + ((double)part + 0.5) / PARTS;
 }
@@ -39,7 +39,7 @@ static void power_init(FloatPower *power, double exponent)
     double term = 1.0;
     power->exponent = exponent;
     for (unsigned i = 0; i < PARTS; i++) {
-        power->parts[i] = pow(part_middle(i), exponent);
+        power->parts[i] = pow(primitive_middle(i), exponent);
     }
     for (int i = 0; i < SCALES; i++) {
         power->scales[i] = exp2((double)(i + LEAST_SCALE) * exponent);
@@ -66,8 +66,9 @@ RT_ALWAYS_INLINE float power_by_tables(const FloatPower *power, float value)
     }
     fraction = (bits & ((1U << MANTISSA_BITS) - 1)) | (uint32_t)ONE << MANTISSA_BITS;
     memcpy(&mantissa, &fraction, sizeof mantissa);
-    unsigned part = (bits >> (MANTISSA_BITS - PART_BITS)) & (PARTS - 1);
-    const double *c = power->terms, middle = part_middle(part), t = ((double)mantissa - middle) / middle, t2 = t * t;
+    unsigned part = (bits >> (MANTISSA_BITS - PRIMITIVE_BITS)) & (PARTS - 1);
+    const double *c = power->terms, middle = primitive_middle(part), t = ((double)mantissa - middle) / middle,
+                 t2 = t * t;
     double series = 1.0 + t * (c[0] + t * c[1]) + t2 * t * (c[2] + t * c[3] + t2 * c[4]);
     double result = power->parts[part] * power->scales[scale] * series, doubt = result * DOUBT;
     float low = (float)(result - doubt), high = (float)(result + doubt);

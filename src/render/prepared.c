@@ -33,26 +33,26 @@ static Vec3 unit(Vec3 a)
 
 // ---- surfaces
 
-// How many surfaces of a part a line meets at most.
-static uint64_t part_crossings_most(const Part *part)
+// How many surfaces of a primitive a line meets at most.
+static uint64_t part_crossings_most(const Primitive *primitive)
 {
-    const PrimitiveClass *primitive = primitive_class(part->kind);
-    if (primitive->is_mesh) {
-        return (uint64_t)part->mesh.mesh->face_count + 8; // a field of heights has sides and water, too
+    const PrimitiveClass *class = primitive_class(primitive->kind);
+    if (class->is_mesh) {
+        return (uint64_t)primitive->mesh.mesh->face_count + 8; // a field of heights has sides and water, too
     }
-    if (part->kind == PART_ISOSURFACE) {
+    if (primitive->kind == PRIMITIVE_ISOSURFACE) {
         return (uint64_t)1 << 24; // its accuracy is no finer
     }
-    Part member = *part;
+    Primitive member = *primitive;
     member.node = 0; // of one alone fewer are asked for at a time
-    return 2 * (uint64_t)primitive_intervals(&member) + 1;
+    return 2 * (uint64_t)primitive_interval_most(&member) + 1;
 }
 
 static uint64_t crossings_most(const Scene *scene)
 {
     uint64_t most = 2 * (uint64_t)scene->shape_count;
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        most += part_crossings_most(&scene->parts.items[i]);
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        most += part_crossings_most(&scene->primitives.items[i]);
     }
     return most;
 }

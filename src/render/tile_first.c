@@ -13,7 +13,7 @@ enum {
 
 static MaterialIndex material_of(const Geometry *g, ShapeId shape)
 {
-    return shape_is_on_part(shape) ? shapes_material(&g->shapes, shape) : geometry_material(g, FEATURES, shape);
+    return shape_is_on_primitive(shape) ? shapes_material(&g->shapes, shape) : geometry_material(g, FEATURES, shape);
 }
 
 static bool has_plain_finish(const Prepared *p, FinishIndex finish)

@@ -18,24 +18,25 @@ size_t blob_list_most(uint32_t component_count)
 bool blob_component(BlobComponent *component, bool is_rod, Vec3 base, Vec3 cap, double radius, double strength,
                     const Transform *transform)
 {
-    Part part = part_empty(0);
+    Primitive primitive = part_empty(0);
     Vec3 axis = vec3_sub(cap, base);
     const char *why_nothing =
-        is_rod ? part_make_cylinder(&part, base, vec3_add_scaled(base, radius, vector_unit(axis)), radius, false)
-               : part_make_ball(&part, base, radius);
+        is_rod
+            ? primitive_make_cylinder(&primitive, base, vec3_add_scaled(base, radius, vector_unit(axis)), radius, false)
+            : primitive_make_ball(&primitive, base, radius);
     if (is_rod) { // the end was only for the turn
         for (int i = 0; i < 3; i++) {
             const double to[3] = {axis.x, axis.y, axis.z};
-            part.to_world.m[2][i] = radius * (to[i] / vector_length(axis));
+            primitive.to_world.m[2][i] = radius * (to[i] / vector_length(axis));
         }
     }
-    part.to_world = transform_compose(part.to_world, *transform);
-    if (why_nothing || !part_finish(&part)) {
+    primitive.to_world = transform_compose(primitive.to_world, *transform);
+    if (why_nothing || !part_finish(&primitive)) {
         return false;
     }
     *component = (BlobComponent){is_rod, strength, is_rod ? vector_length(axis) / radius : 0.0, 0.0, {{0}}, {{0}}};
-    memcpy(component->to_world, part.to_world.m, sizeof component->to_world);
-    memcpy(component->to_own, part.to_object.m, sizeof component->to_own);
+    memcpy(component->to_world, primitive.to_world.m, sizeof component->to_world);
+    memcpy(component->to_own, primitive.to_object.m, sizeof component->to_own);
     return true;
 }
 

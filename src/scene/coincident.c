@@ -13,15 +13,15 @@
 #include "base/pages.h"
 #include "base/parallel.h"
 #include "scene/opaque.h"
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 #include "scene/range.h"
 
-// A key has room for a transform and all that a part's data[] may hold.
+// A key has room for a transform and all that a primitive's data[] may hold.
 enum {
     AHEAD = 32,
-    KEY_NUMBERS = (sizeof(Transform) + sizeof((Part){0}.data)) / sizeof(double),
-    KIND_SPHERE_KEY = PART_KINDS
+    KEY_NUMBERS = (sizeof(Transform) + sizeof((Primitive){0}.data)) / sizeof(double),
+    KIND_SPHERE_KEY = PRIMITIVE_KINDS
 };
 
 __extension__ typedef unsigned __int128 Wide;
@@ -70,7 +70,7 @@ static void key_sphere(Key *key, Vec3 centre, double radius)
 static void key_plane(Key *key, Vec3 normal, double distance)
 {
     double first = normal.x != 0.0 ? normal.x : normal.y != 0.0 ? normal.y : normal.z;
-    key->kind = PART_PLANE;
+    key->kind = PRIMITIVE_PLANE;
     key_add(key, first < 0.0 ? vec3_neg(normal) : normal);
     key->is_turned = first < 0.0;
     key->numbers[key->count++] = (first < 0.0 ? -distance : distance) + 0.0;
@@ -86,31 +86,31 @@ static void key_transform(Key *key, const Transform *m)
 // A ball that is round is a sphere.
 static void key_ball(Key *key, const Transform *m)
 {
-    if (part_map_is_round(m->m)) {
+    if (primitive_map_is_round(m->m)) {
         key_sphere(key, vec3(m->m[3][0], m->m[3][1], m->m[3][2]), fabs(m->m[0][0]));
     } else {
-        key->kind = PART_SPHERE;
+        key->kind = PRIMITIVE_SPHERE;
         key_transform(key, m);
     }
 }
 
-static void key_part(Key *key, const Part *part)
+static void key_primitive(Key *key, const Primitive *primitive)
 {
-    switch (part->kind) {
-    case PART_PLANE:
-        key_plane(key, part->data[0], part->data[1].x);
+    switch (primitive->kind) {
+    case PRIMITIVE_PLANE:
+        key_plane(key, primitive->data[0], primitive->data[1].x);
         break;
-    case PART_SPHERE:
-        key_ball(key, &part->to_world);
+    case PRIMITIVE_SPHERE:
+        key_ball(key, &primitive->to_world);
         break;
     default:
-        key->kind = primitive_class(part->kind)->surface;
-        key_transform(key, &part->to_world);
-        for (unsigned i = 0; i < primitive_class(part->kind)->key_count; i++) {
-            key_add(key, part->data[i]);
+        key->kind = primitive_class(primitive->kind)->surface;
+        key_transform(key, &primitive->to_world);
+        for (unsigned i = 0; i < primitive_class(primitive->kind)->key_count; i++) {
+            key_add(key, primitive->data[i]);
         }
-        if (primitive_class(part->kind)->is_mesh) { // two that have the same triangles, but by chance, are two
-            const Mesh *mesh = part->mesh.mesh;
+        if (primitive_class(primitive->kind)->is_mesh) { // two that have the same triangles, but by chance, are two
+            const Mesh *mesh = primitive->mesh.mesh;
             key_add(key, vec3(mesh->number, mesh->face_textures ? 1.0 : 0.0, (double)mesh->source));
         }
     }
@@ -136,21 +136,21 @@ static Key item_key(const Coincidences *search, size_t item)
         key.material = plane->material;
         key_plane(&key, plane->normal, plane->distance);
     } else {
-        const Part *part = &scene->parts.items[item - search->parts];
-        key.source = part->source;
-        key.order = part->order;
-        key.material = part->material;
-        key.hidden = part->hidden;
-        key_part(&key, part);
-        key.is_turned ^= (part->flags & PART_INVERSE) != 0;
-        key.is_smooth = part->kind == PART_SMOOTH_TRIANGLE;
+        const Primitive *primitive = &scene->primitives.items[item - search->parts];
+        key.source = primitive->source;
+        key.order = primitive->order;
+        key.material = primitive->material;
+        key.hidden = primitive->hidden;
+        key_primitive(&key, primitive);
+        key.is_turned ^= (primitive->flags & PRIMITIVE_INVERSE) != 0;
+        key.is_smooth = primitive->kind == PRIMITIVE_SMOOTH_TRIANGLE;
     }
     return key;
 }
 
 static bool item_is_alone(const Coincidences *search, size_t item)
 {
-    return item < search->parts || search->scene->parts.items[item - search->parts].node == NODE_NONE;
+    return item < search->parts || search->scene->primitives.items[item - search->parts].node == NODE_NONE;
 }
 
 static inline uint64_t word_of(double number)
@@ -209,21 +209,21 @@ static bool keys_are_equal(const Key *a, const Key *b)
            memcmp(a->numbers, b->numbers, a->count * sizeof a->numbers[0]) == 0;
 }
 
-bool scene_parts_coincide(const Part *a, const Part *b)
+bool scene_primitives_coincide(const Primitive *a, const Primitive *b)
 {
     Key one, other;
     one.count = other.count = 0;
-    key_part(&one, a);
-    key_part(&other, b);
+    key_primitive(&one, a);
+    key_primitive(&other, b);
     return keys_are_equal(&one, &other);
 }
 
 static void tell(const Key *one, const Key *other, DiagSink *diags)
 {
     const Key *first = one->order < other->order ? one : other, *second = first == one ? other : one;
-    const char *word = one->kind == KIND_SPHERE_KEY ? "sphere"
-                       : one->kind == PART_SPHERE   ? "stretched sphere"
-                                                    : primitive_class((PartKind)one->kind)->word;
+    const char *word = one->kind == KIND_SPHERE_KEY    ? "sphere"
+                       : one->kind == PRIMITIVE_SPHERE ? "stretched sphere"
+                                                       : primitive_class((PrimitiveKind)one->kind)->word;
     if (diag_report(diags, DIAG_W0444, scene_source_span(second->source),
                     "this %s coincides with one that was declared before it", word) &&
         first->source) {
@@ -257,8 +257,8 @@ static bool are_twins(const Scene *scene, const Key *one, const Key *other, Diag
 static uint32_t composite_hash(const Coincidences *search, const Composite *composite)
 {
     uint32_t hash = composite->node_count;
-    for (uint32_t i = 0; i < composite->part_count; i++) {
-        Key key = item_key(search, search->parts + composite->first_part + i);
+    for (uint32_t i = 0; i < composite->primitive_count; i++) {
+        Key key = item_key(search, search->parts + composite->first_primitive + i);
         hash = (hash ^ key_hash(&key)) * UINT32_C(0x9e3779b1);
     }
     return hash;
@@ -273,17 +273,18 @@ static uint32_t below(uint32_t node, const Composite *composite)
 static bool composites_are_equal(const Coincidences *search, const Composite *a, const Composite *b)
 {
     const Scene *scene = search->scene;
-    bool equal = a->node_count == b->node_count && a->part_count == b->part_count;
+    bool equal = a->node_count == b->node_count && a->primitive_count == b->primitive_count;
     for (uint32_t i = 0; equal && i < a->node_count; i++) {
         const Node *one = &scene->nodes.items[a->first_node + i], *other = &scene->nodes.items[b->first_node + i];
         equal = one->op == other->op && one->is_inverse == other->is_inverse &&
                 one->child_count == other->child_count && below(one->parent, a) == below(other->parent, b);
     }
-    for (uint32_t i = 0; equal && i < a->part_count; i++) {
-        const Part *one = &scene->parts.items[a->first_part + i], *other = &scene->parts.items[b->first_part + i];
-        Key key = item_key(search, search->parts + a->first_part + i);
-        Key known = item_key(search, search->parts + b->first_part + i);
-        bool is_same_side = one->kind != PART_PLANE || vec3_equal(one->data[0], other->data[0]);
+    for (uint32_t i = 0; equal && i < a->primitive_count; i++) {
+        const Primitive *one = &scene->primitives.items[a->first_primitive + i],
+                        *other = &scene->primitives.items[b->first_primitive + i];
+        Key key = item_key(search, search->parts + a->first_primitive + i);
+        Key known = item_key(search, search->parts + b->first_primitive + i);
+        bool is_same_side = one->kind != PRIMITIVE_PLANE || vec3_equal(one->data[0], other->data[0]);
         equal = keys_are_equal(&key, &known) && is_same_side && one->flags == other->flags &&
                 below(one->node, a) == below(other->node, b);
     }
@@ -294,10 +295,12 @@ static bool composites_are_equal(const Coincidences *search, const Composite *a,
 static bool composites_look_alike(const Scene *scene, const Composite *a, const Composite *b)
 {
     bool are_alike = true;
-    for (uint32_t i = 0; are_alike && i < a->part_count; i++) {
-        const Part *one = &scene->parts.items[a->first_part + i], *other = &scene->parts.items[b->first_part + i];
-        are_alike = (one->flags & PART_UNSEEN) || (scene_materials_are_alike(scene, one->material, other->material) &&
-                                                   scene_material_is_opaque(scene, one->material));
+    for (uint32_t i = 0; are_alike && i < a->primitive_count; i++) {
+        const Primitive *one = &scene->primitives.items[a->first_primitive + i],
+                        *other = &scene->primitives.items[b->first_primitive + i];
+        are_alike =
+            (one->flags & PRIMITIVE_UNSEEN) || (scene_materials_are_alike(scene, one->material, other->material) &&
+                                                scene_material_is_opaque(scene, one->material));
     }
     return are_alike;
 }
@@ -338,20 +341,20 @@ static void visit_composite(const Coincidences *search, uint32_t number, DiagSin
 // ---- shapes that stand alone beside the same ones in composites
 
 // Whether the outside of a leaf is outside of its composite, too, so that where it is not cut away both are seen.
-static bool is_outer(const Scene *scene, const Part *part)
+static bool is_outer(const Scene *scene, const Primitive *primitive)
 {
-    bool flips = (part->flags & PART_INVERSE) != 0;
-    for (uint32_t node = part->node; node != NODE_NONE; node = scene->nodes.items[node].parent) {
+    bool flips = (primitive->flags & PRIMITIVE_INVERSE) != 0;
+    for (uint32_t node = primitive->node; node != NODE_NONE; node = scene->nodes.items[node].parent) {
         flips ^= scene->nodes.items[node].is_inverse;
     }
-    return !flips && !(part->flags & PART_UNSEEN);
+    return !flips && !(primitive->flags & PRIMITIVE_UNSEEN);
 }
 
 // Leaves are not compared with each other: two halves of a sphere have it in common, and no surface.
 static void visit_leaf(const Coincidences *search, const Composite *composite, uint32_t number, DiagSink *diags)
 {
-    const Part *part = &search->scene->parts.items[number];
-    if (part->kind == PART_PLANE || !is_outer(search->scene, part)) {
+    const Primitive *primitive = &search->scene->primitives.items[number];
+    if (primitive->kind == PRIMITIVE_PLANE || !is_outer(search->scene, primitive)) {
         return;
     }
     Key key = item_key(search, search->parts + number);
@@ -572,7 +575,7 @@ bool scene_warn_of_coincident(const Scene *scene, DiagSink *diags, int threads)
 {
     Coincidences search = {.scene = scene, .planes = scene->spheres.count};
     search.parts = search.planes + scene->planes.count;
-    search.end = search.parts + scene->parts.count;
+    search.end = search.parts + scene->primitives.count;
     if (search.end < 2 || search.end >= UINT32_MAX / 4 || !diag_is_on(diags, DIAG_W0444)) {
         return true;
     }
@@ -587,8 +590,8 @@ bool scene_warn_of_coincident(const Scene *scene, DiagSink *diags, int threads)
     for (uint32_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];
         visit_composite(&search, i, diags);
-        for (uint32_t k = 0; k < composite->part_count; k++) {
-            visit_leaf(&search, composite, composite->first_part + k, diags);
+        for (uint32_t k = 0; k < composite->primitive_count; k++) {
+            visit_leaf(&search, composite, composite->first_primitive + k, diags);
         }
     }
     free(search.slots);

@@ -1,8 +1,8 @@
 // The printable form of scene records: `.scn` text that evaluates to the same records again.
 //
 // Turns numbers into their shortest decimal forms, which read back as the same bits, and colours into phrases that keep
-// all components. Shapes that are not plain ones are in dump_part.c, textures in dump_texture.c. Knows only what it
-// writes of the language.
+// all components. Shapes that are not plain ones are in dump_primitive.c, textures in dump_texture.c. Knows only what
+// it writes of the language.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -297,10 +297,10 @@ static void dump_shapes(const Scene *scene, TextBuffer *out)
         } else if (plane < scene->planes.count && scene->planes.items[plane].order == order) {
             dump_plane(scene, &scene->planes.items[plane++], around, out);
         } else if (composite < scene->composites.count && scene->composites.items[composite].order == order) {
-            part += scene->composites.items[composite].part_count;
+            part += scene->composites.items[composite].primitive_count;
             dump_composite(scene, &scene->composites.items[composite++], around, open.innermost != RECORD_NONE, out);
         } else {
-            dump_part(scene, &scene->parts.items[part++], around, out);
+            dump_primitive(scene, &scene->primitives.items[part++], around, out);
         }
     }
     close_bodies(&open, scene->shape_count, out);

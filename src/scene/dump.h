@@ -26,9 +26,9 @@ void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 // The texture that a material is of a blob whose components have some; NULL: it is no such.
 const Texture *dump_fields_of(const Scene *scene, MaterialIndex material);
 // All of a blob but its head; `texture` is NULL or that of its components.
-void dump_blob(const Scene *scene, const Part *part, const Texture *texture, TextBuffer *out);
+void dump_blob(const Scene *scene, const Primitive *primitive, const Texture *texture, TextBuffer *out);
 // All of an isosurface but its head.
-void dump_isosurface(const Scene *scene, const Part *part, TextBuffer *out);
+void dump_isosurface(const Scene *scene, const Primitive *primitive, TextBuffer *out);
 void dump_warps(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 
 // Declarations of all interiors (I1, …), patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its
@@ -46,11 +46,11 @@ void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *ar
 // Declarations of the meshes (Mesh1, …) whose faces have no textures of their own, before all shapes; and a part that
 // is a mesh, up to its matrix.
 void dump_meshes(const Scene *scene, TextBuffer *out);
-void dump_mesh_part(const Scene *scene, const Part *part, TextBuffer *out);
+void dump_mesh_part(const Scene *scene, const Primitive *primitive, TextBuffer *out);
 
 // Shapes that are not plain ones. A composite that is_inside of a body leaves its interior to that, unless it is one of
 // its own.
-void dump_part(const Scene *scene, const Part *part, const uint32_t *around, TextBuffer *out);
+void dump_primitive(const Scene *scene, const Primitive *primitive, const uint32_t *around, TextBuffer *out);
 void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, bool is_inside,
                     TextBuffer *out);
 

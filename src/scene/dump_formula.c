@@ -247,10 +247,10 @@ void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out)
 
 // ---- isosurfaces
 
-void dump_isosurface(const Scene *scene, const Part *part, TextBuffer *out)
+void dump_isosurface(const Scene *scene, const Primitive *primitive, TextBuffer *out)
 {
-    const Isosurface *surface = isosurface_of(part->list.items);
-    Formulas formulas = {scene, isosurface_steps(part->list.items), true};
+    const Isosurface *surface = isosurface_of(primitive->list.items);
+    Formulas formulas = {scene, isosurface_steps(primitive->list.items), true};
     text_append(out, "\n");
     declare_parts(&formulas, (uint32_t)surface->first, out);
     write_function(&formulas, (uint32_t)surface->first, out);

@@ -48,11 +48,11 @@ static const Texture *corners_of(const Scene *scene, MaterialIndex material)
 }
 
 // How many of a mesh's textures are none of corners: the first ones.
-static uint32_t count_single(const Scene *scene, const Part *part)
+static uint32_t count_single(const Scene *scene, const Primitive *primitive)
 {
     uint32_t count = 0;
-    while (count < part->mesh.mesh->texture_count &&
-           !corners_of(scene, scene->face_materials.items[part->mesh.materials + count])) {
+    while (count < primitive->mesh.mesh->texture_count &&
+           !corners_of(scene, scene->face_materials.items[primitive->mesh.materials + count])) {
         count++;
     }
     return count;
@@ -112,7 +112,7 @@ static void dump_triangle_texture(const Scene *scene, MaterialIndex material, Te
 }
 
 // A mesh with flat faces between smooth ones has no form as mesh2.
-static void dump_triangles(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
+static void dump_triangles(const Scene *scene, const Primitive *primitive, const Mesh *mesh, TextBuffer *out)
 {
     text_append(out, "mesh {\n");
     for (uint32_t face = 0; face < mesh->face_count; face++) {
@@ -129,21 +129,21 @@ static void dump_triangles(const Scene *scene, const Part *part, const Mesh *mes
             text_append(out, i ? ", " : " uv_vectors ");
             dump_numbers(out, (double[]){(double)at[0], (double)at[1]}, 2);
         }
-        if (part && mesh->face_textures && mesh->face_textures[face]) {
+        if (primitive && mesh->face_textures && mesh->face_textures[face]) {
             dump_triangle_texture(
-                scene, scene->face_materials.items[part->mesh.materials + mesh->face_textures[face] - 1], out);
+                scene, scene->face_materials.items[primitive->mesh.materials + mesh->face_textures[face] - 1], out);
         }
         text_append(out, " }\n");
     }
 }
 
-static void dump_faces(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
+static void dump_faces(const Scene *scene, const Primitive *primitive, const Mesh *mesh, TextBuffer *out)
 {
-    if (!part || !mesh->face_textures) {
+    if (!primitive || !mesh->face_textures) {
         dump_indices("face_indices", (const uint32_t(*)[3])mesh->faces, mesh->face_count, out);
         return;
     }
-    uint32_t single = count_single(scene, part);
+    uint32_t single = count_single(scene, primitive);
     text_printf(out, "  face_indices { %lu", (unsigned long)mesh->face_count);
     for (uint32_t i = 0; i < mesh->face_count; i++) {
         const uint32_t *face = mesh->faces[i];
@@ -170,7 +170,7 @@ static void dump_uvs(const Mesh *mesh, TextBuffer *out)
     text_append(out, " }\n");
 }
 
-static void dump_lists(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
+static void dump_lists(const Scene *scene, const Primitive *primitive, const Mesh *mesh, TextBuffer *out)
 {
     text_append(out, "mesh2 {\n");
     dump_floats("vertex_vectors", (const float(*)[3])mesh->vertices, mesh->vertex_count, out);
@@ -180,15 +180,16 @@ static void dump_lists(const Scene *scene, const Part *part, const Mesh *mesh, T
     if (mesh->uvs) {
         dump_uvs(mesh, out);
     }
-    if (part && mesh->texture_count > 0) {
-        uint32_t single = count_single(scene, part);
+    if (primitive && mesh->texture_count > 0) {
+        uint32_t single = count_single(scene, primitive);
         text_printf(out, "  texture_list { %lu,\n", (unsigned long)single + 3 * (mesh->texture_count - single));
         for (uint32_t i = 0; i < mesh->texture_count; i++) {
-            dump_face_texture(scene, scene->face_materials.items[part->mesh.materials + i], &part->to_object, out);
+            dump_face_texture(scene, scene->face_materials.items[primitive->mesh.materials + i], &primitive->to_object,
+                              out);
         }
         text_append(out, "  }\n");
     }
-    dump_faces(scene, part, mesh, out);
+    dump_faces(scene, primitive, mesh, out);
     if (mesh->uvs && mesh->face_uvs != mesh->faces) {
         dump_indices("uv_indices", (const uint32_t(*)[3])mesh->face_uvs, mesh->face_count, out);
     }
@@ -224,7 +225,7 @@ static void dump_field(const Mesh *mesh, TextBuffer *out)
     text_append(out, "\n");
 }
 
-static void dump_mesh(const Scene *scene, const Part *part, const Mesh *mesh, TextBuffer *out)
+static void dump_mesh(const Scene *scene, const Primitive *primitive, const Mesh *mesh, TextBuffer *out)
 {
     if (mesh->field) {
         dump_field(mesh, out);
@@ -232,9 +233,9 @@ static void dump_mesh(const Scene *scene, const Part *part, const Mesh *mesh, Te
     }
     bool is_mixed = mesh->face_normals && has_flat_face(mesh);
     if (is_mixed) {
-        dump_triangles(scene, part, mesh, out);
+        dump_triangles(scene, primitive, mesh, out);
     } else {
-        dump_lists(scene, part, mesh, out);
+        dump_lists(scene, primitive, mesh, out);
     }
     if (mesh->has_inside) {
         dump_vector(out, "  inside_vector ", mesh->inside_vector);
@@ -257,11 +258,11 @@ void dump_meshes(const Scene *scene, TextBuffer *out)
     }
 }
 
-void dump_mesh_part(const Scene *scene, const Part *part, TextBuffer *out)
+void dump_mesh_part(const Scene *scene, const Primitive *primitive, TextBuffer *out)
 {
-    if (part->mesh.mesh->face_textures) {
-        dump_mesh(scene, part, part->mesh.mesh, out);
+    if (primitive->mesh.mesh->face_textures) {
+        dump_mesh(scene, primitive, primitive->mesh.mesh, out);
     } else {
-        text_printf(out, "object { Mesh%lu", (unsigned long)part->mesh.mesh->number + 1);
+        text_printf(out, "object { Mesh%lu", (unsigned long)primitive->mesh.mesh->number + 1);
     }
 }

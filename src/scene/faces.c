@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 #include "scene/range.h"
 
@@ -60,35 +60,35 @@ typedef struct Faces {
 
 // ---- faces of shapes
 
-static uint32_t face_count(const Part *part)
+static uint32_t face_count(const Primitive *primitive)
 {
-    const PrimitiveClass *primitive = primitive_class(part->kind);
-    bool has_none = part->node != NODE_NONE || (part->flags & PART_UNSEEN) || !primitive->face_count;
-    return has_none ? 0 : primitive->face_count(part);
+    const PrimitiveClass *class = primitive_class(primitive->kind);
+    bool has_none = primitive->node != NODE_NONE || (primitive->flags & PRIMITIVE_UNSEEN) || !class->face_count;
+    return has_none ? 0 : class->face_count(primitive);
 }
 
-static FacePlane plane_of_part(const Part *part, uint32_t number)
+static FacePlane plane_of_part(const Primitive *primitive, uint32_t number)
 {
     FacePlane plane;
-    if (part->kind == PART_PLANE) {
-        plane = (FacePlane){part->data[0], part->data[1].x, fabs(part->data[1].x)};
+    if (primitive->kind == PRIMITIVE_PLANE) {
+        plane = (FacePlane){primitive->data[0], primitive->data[1].x, fabs(primitive->data[1].x)};
     } else {
-        const PrimitiveClass *primitive = primitive_class(part->kind);
-        Vec3 corner = transform_point(&part->to_world, primitive->corner(part, number, 0));
-        plane.normal = vec3_normalize(transform_normal(&part->to_object, primitive->face_normal(number)));
+        const PrimitiveClass *class = primitive_class(primitive->kind);
+        Vec3 corner = transform_point(&primitive->to_world, class->corner(primitive, number, 0));
+        plane.normal = vec3_normalize(transform_normal(&primitive->to_object, class->face_normal(number)));
         plane.distance = vec3_dot(plane.normal, corner);
-        plane.reach = part_reach(part, plane.normal);
+        plane.reach = primitive_reach(primitive, plane.normal);
     }
-    if (part->flags & PART_INVERSE) {
+    if (primitive->flags & PRIMITIVE_INVERSE) {
         plane.normal = vec3_neg(plane.normal);
         plane.distance = -plane.distance;
     }
     return plane;
 }
 
-static const Part *ref_part(const Scene *scene, FaceRef ref)
+static const Primitive *ref_part(const Scene *scene, FaceRef ref)
 {
-    return &scene->parts.items[ref.item - scene->planes.count];
+    return &scene->primitives.items[ref.item - scene->planes.count];
 }
 
 static FacePlane plane_at(const Scene *scene, FaceRef ref)
@@ -110,18 +110,18 @@ static Face face_at(const Scene *scene, FaceRef ref)
         face.source = plane->source;
         return face;
     }
-    const Part *part = ref_part(scene, ref);
-    const PrimitiveClass *primitive = primitive_class(part->kind);
-    face.corner_count = primitive->corner_count(part);
+    const Primitive *primitive = ref_part(scene, ref);
+    const PrimitiveClass *class = primitive_class(primitive->kind);
+    face.corner_count = class->corner_count(primitive);
     for (uint32_t i = 0; i < face.corner_count; i++) {
-        face.corners[i] = transform_point(&part->to_world, primitive->corner(part, ref.face, i));
+        face.corners[i] = transform_point(&primitive->to_world, class->corner(primitive, ref.face, i));
     }
-    face.is_flat = primitive_is_flat(part->kind);
-    face.hidden = part->hidden;
-    face.material = part->material;
-    face.order = part->order;
-    face.source = part->source;
-    face.word = primitive->word;
+    face.is_flat = primitive_kind_is_flat(primitive->kind);
+    face.hidden = primitive->hidden;
+    face.material = primitive->material;
+    face.order = primitive->order;
+    face.source = primitive->source;
+    face.word = class->word;
     return face;
 }
 
@@ -131,7 +131,7 @@ static Face face_at(const Scene *scene, FaceRef ref)
 static bool are_equal(const Scene *scene, FaceRef a, FaceRef b)
 {
     size_t planes = scene->planes.count;
-    return a.item >= planes && b.item >= planes && scene_parts_coincide(ref_part(scene, a), ref_part(scene, b));
+    return a.item >= planes && b.item >= planes && scene_primitives_coincide(ref_part(scene, a), ref_part(scene, b));
 }
 
 // Whether the camera is on the side that the face is seen from.
@@ -304,8 +304,8 @@ static bool collect(Faces *faces)
 {
     const Scene *scene = faces->scene;
     size_t most = scene->planes.count;
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        most += face_count(&scene->parts.items[i]);
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        most += face_count(&scene->primitives.items[i]);
     }
     FacePlane *planes = most >= 2 ? malloc(most * sizeof *planes) : NULL;
     faces->refs = planes ? calloc(most, sizeof *faces->refs) : NULL;
@@ -314,8 +314,9 @@ static bool collect(Faces *faces)
         return most < 2;
     }
     double reach = 0.0;
-    for (size_t item = 0; item < scene->planes.count + scene->parts.count; item++) {
-        uint32_t count = item < scene->planes.count ? 1 : face_count(&scene->parts.items[item - scene->planes.count]);
+    for (size_t item = 0; item < scene->planes.count + scene->primitives.count; item++) {
+        uint32_t count =
+            item < scene->planes.count ? 1 : face_count(&scene->primitives.items[item - scene->planes.count]);
         for (uint32_t i = 0; i < count; i++) {
             FaceRef ref = {0, (uint32_t)item, i};
             planes[faces->count] = plane_at(scene, ref);
@@ -359,7 +360,7 @@ static void keep_shared(Faces *faces)
 bool scene_warn_of_faces(const Scene *scene, DiagSink *diags)
 {
     Faces faces = {.scene = scene};
-    if (scene->planes.count + scene->parts.count >= UINT32_MAX || !diag_is_on(diags, DIAG_W0444)) {
+    if (scene->planes.count + scene->primitives.count >= UINT32_MAX || !diag_is_on(diags, DIAG_W0444)) {
         return true;
     }
     bool fine = collect(&faces);

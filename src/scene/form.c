@@ -48,101 +48,104 @@ static void set_round(Transform *frame, Vec3 n, double radius)
     set_row(frame, 1, vec3_scale(radius, vec3(b, sign + n.y * n.y * a, -n.y)));
 }
 
-const char *part_make_ball(Part *part, Vec3 centre, double radius)
+const char *primitive_make_ball(Primitive *primitive, Vec3 centre, double radius)
 {
     if (radius == 0.0) {
         return "a sphere of radius 0 is not drawn";
     }
-    part->kind = PART_SPHERE;
-    part->to_world = transform_compose(transform_scale(vec3(radius, radius, radius)), transform_translate(centre));
+    primitive->kind = PRIMITIVE_SPHERE;
+    primitive->to_world = transform_compose(transform_scale(vec3(radius, radius, radius)), transform_translate(centre));
     return NULL;
 }
 
-void part_make_box(Part *part, Vec3 a, Vec3 b)
+void primitive_make_box(Primitive *primitive, Vec3 a, Vec3 b)
 {
-    part->kind = PART_BOX;
-    part->data[0] = vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
-    part->data[1] = vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+    primitive->kind = PRIMITIVE_BOX;
+    primitive->data[0] = vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+    primitive->data[1] = vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
 }
 
-static void make_round(Part *part, Vec3 base, double base_radius, Vec3 cap, double cap_radius, bool is_open)
+static void make_round(Primitive *primitive, Vec3 base, double base_radius, Vec3 cap, double cap_radius, bool is_open)
 {
     bool turns = base_radius < cap_radius; // the greater end is the base
     Vec3 origin = turns ? cap : base;
     Vec3 axis = vec3_sub(turns ? base : cap, origin);
     double radius = turns ? cap_radius : base_radius;
-    part->kind = PART_CONE;
-    part->flags = is_open ? PART_OPEN : 0;
-    part->data[0] = vec3((turns ? base_radius : cap_radius) / radius, 0.0, 0.0);
-    set_round(&part->to_world, vector_unit(axis), radius);
-    set_row(&part->to_world, 2, axis);
-    set_row(&part->to_world, 3, origin);
+    primitive->kind = PRIMITIVE_CONE;
+    primitive->flags = is_open ? PRIMITIVE_OPEN : 0;
+    primitive->data[0] = vec3((turns ? base_radius : cap_radius) / radius, 0.0, 0.0);
+    set_round(&primitive->to_world, vector_unit(axis), radius);
+    set_row(&primitive->to_world, 2, axis);
+    set_row(&primitive->to_world, 3, origin);
 }
 
-const char *part_make_cylinder(Part *part, Vec3 base, Vec3 cap, double radius, bool is_open)
+const char *primitive_make_cylinder(Primitive *primitive, Vec3 base, Vec3 cap, double radius, bool is_open)
 {
     if (radius == 0.0) {
         return "a cylinder of radius 0 is not drawn";
     }
-    make_round(part, base, radius, cap, radius, is_open);
+    make_round(primitive, base, radius, cap, radius, is_open);
     return NULL;
 }
 
-const char *part_make_cone(Part *part, Vec3 base, double base_radius, Vec3 cap, double cap_radius, bool is_open)
+const char *primitive_make_cone(Primitive *primitive, Vec3 base, double base_radius, Vec3 cap, double cap_radius,
+                                bool is_open)
 {
     if (base_radius == 0.0 && cap_radius == 0.0) {
         return "a cone with both radii 0 is not drawn";
     }
-    make_round(part, base, base_radius, cap, cap_radius, is_open);
+    make_round(primitive, base, base_radius, cap, cap_radius, is_open);
     return NULL;
 }
 
-const char *part_make_disc(Part *part, Vec3 centre, Vec3 normal, double radius, double hole)
+const char *primitive_make_disc(Primitive *primitive, Vec3 centre, Vec3 normal, double radius, double hole)
 {
     if (radius == 0.0 || hole >= radius || vec3_equal(normal, vec3(0.0, 0.0, 0.0))) {
         return "a disc without a normal, or with a hole as large as itself, is not drawn";
     }
     Vec3 unit = vector_unit(normal);
-    part->kind = PART_DISC;
-    part->data[0] = vec3(hole / radius, 0.0, 0.0);
-    set_round(&part->to_world, unit, radius);
-    set_row(&part->to_world, 2, vec3_scale(radius, unit));
-    set_row(&part->to_world, 3, centre);
+    primitive->kind = PRIMITIVE_DISC;
+    primitive->data[0] = vec3(hole / radius, 0.0, 0.0);
+    set_round(&primitive->to_world, unit, radius);
+    set_row(&primitive->to_world, 2, vec3_scale(radius, unit));
+    set_row(&primitive->to_world, 3, centre);
     return NULL;
 }
 
 // The third row stands at right angles to the triangle, as long as the first.
-static const char *triangle_map(Part *part, const Vec3 corners[3])
+static const char *triangle_map(Primitive *primitive, const Vec3 corners[3])
 {
     Vec3 first = vec3_sub(corners[1], corners[0]), second = vec3_sub(corners[2], corners[0]);
     Vec3 normal = vec3_cross(vector_unit(first), vector_unit(second));
-    set_row(&part->to_world, 0, first);
-    set_row(&part->to_world, 1, second);
-    set_row(&part->to_world, 2, vec3_scale(vector_length(first), vector_unit(normal)));
-    set_row(&part->to_world, 3, corners[0]);
+    set_row(&primitive->to_world, 0, first);
+    set_row(&primitive->to_world, 1, second);
+    set_row(&primitive->to_world, 2, vec3_scale(vector_length(first), vector_unit(normal)));
+    set_row(&primitive->to_world, 3, corners[0]);
     Transform back;
-    return transform_invert(&part->to_world, &back) ? NULL : "a triangle with its corners on one line is not drawn";
+    return transform_invert(&primitive->to_world, &back) ? NULL
+                                                         : "a triangle with its corners on one line is not drawn";
 }
 
-const char *part_make_triangle(Part *part, const Vec3 corners[3])
+const char *primitive_make_triangle(Primitive *primitive, const Vec3 corners[3])
 {
-    part->kind = PART_TRIANGLE;
-    return triangle_map(part, corners);
+    primitive->kind = PRIMITIVE_TRIANGLE;
+    return triangle_map(primitive, corners);
 }
 
 // A normal n of the shape is M n as the fixed shape sees it, M being the frame.
-const char *part_make_smooth_triangle(Part *part, const Vec3 corners[3], const Vec3 normals[3])
+const char *primitive_make_smooth_triangle(Primitive *primitive, const Vec3 corners[3], const Vec3 normals[3])
 {
-    part->kind = PART_SMOOTH_TRIANGLE;
-    const char *why_nothing = triangle_map(part, corners);
+    primitive->kind = PRIMITIVE_SMOOTH_TRIANGLE;
+    const char *why_nothing = triangle_map(primitive, corners);
     int sides = 0;
     for (int i = 0; i < 3 && !why_nothing; i++) {
-        double side = vec3_dot(normals[i], vec3(part->to_world.m[2][0], part->to_world.m[2][1], part->to_world.m[2][2]));
+        double side = vec3_dot(
+            normals[i], vec3(primitive->to_world.m[2][0], primitive->to_world.m[2][1], primitive->to_world.m[2][2]));
         sides += (side > 0.0) - (side < 0.0);
         if (vec3_equal(normals[i], vec3(0.0, 0.0, 0.0))) {
             return "a smooth triangle with a normal of 0 is not drawn";
         }
-        part->data[i] = transform_normal(&part->to_world, normals[i]);
+        primitive->data[i] = transform_normal(&primitive->to_world, normals[i]);
     }
     if (!why_nothing && abs(sides) < 3) {
         return "a smooth triangle with a normal along it, or with normals on both sides, is not drawn";
@@ -162,19 +165,19 @@ static void make_zeros_positive(Transform *transform)
 
 // The normals' lengths count where they are weighed against each other, in the scene itself. One that is 1 to 12 digits
 // is left alone, so that it stays the same when a dump is read; no picture tells.
-static void normalise_corners(Part *part)
+static void normalise_corners(Primitive *primitive)
 {
-    for (int i = 0; part->kind == PART_SMOOTH_TRIANGLE && i < 3; i++) {
-        double length = vector_length(transform_normal(&part->to_object, part->data[i]));
+    for (int i = 0; primitive->kind == PRIMITIVE_SMOOTH_TRIANGLE && i < 3; i++) {
+        double length = vector_length(transform_normal(&primitive->to_object, primitive->data[i]));
         if (!(fabs(length - 1.0) < 1e-12)) {
-            part->data[i] = vec3_scale(1.0 / length, part->data[i]);
+            primitive->data[i] = vec3_scale(1.0 / length, primitive->data[i]);
         }
     }
 }
 
-Part part_empty(uint64_t source)
+Primitive part_empty(uint64_t source)
 {
-    return (Part){
+    return (Primitive){
         .node = NODE_NONE,
         .source = source,
         .to_world = transform_identity(),
@@ -182,12 +185,12 @@ Part part_empty(uint64_t source)
     };
 }
 
-bool part_finish(Part *part)
+bool part_finish(Primitive *primitive)
 {
-    make_zeros_positive(&part->to_world);
-    if (!transform_is_finite(&part->to_world) || !transform_invert(&part->to_world, &part->to_object)) {
+    make_zeros_positive(&primitive->to_world);
+    if (!transform_is_finite(&primitive->to_world) || !transform_invert(&primitive->to_world, &primitive->to_object)) {
         return false;
     }
-    normalise_corners(part);
+    normalise_corners(primitive);
     return true;
 }

@@ -86,12 +86,12 @@ void polynomial_complete(double *list)
     memcpy(list + 2, box, sizeof box);
 }
 
-void polynomial_part(const Numbers *list, Part *part)
+void polynomial_part(const Numbers *list, Primitive *primitive)
 {
-    part->kind = PART_POLYNOMIAL;
-    part->fixed[0] = vec3(list->items[2], list->items[3], list->items[4]);
-    part->fixed[1] = vec3(list->items[5], list->items[6], list->items[7]);
-    part->list = *list;
+    primitive->kind = PRIMITIVE_POLYNOMIAL;
+    primitive->fixed[0] = vec3(list->items[2], list->items[3], list->items[4]);
+    primitive->fixed[1] = vec3(list->items[5], list->items[6], list->items[7]);
+    primitive->list = *list;
 }
 
 bool polynomial_is_constant(const double *list)

@@ -51,7 +51,7 @@ static inline const double *polynomial_terms(const double *list)
 
 // Completes a list of which the order and the coefficients are in place, and makes a part of a complete one.
 void polynomial_complete(double *list);
-void polynomial_part(const Numbers *list, Part *part);
+void polynomial_part(const Numbers *list, Primitive *primitive);
 
 // Whether all coefficients but the last are 0.
 bool polynomial_is_constant(const double *list);

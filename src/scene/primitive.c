@@ -1,4 +1,5 @@
-// The rows of the table of primitives, and what each row's functions say; see PartKind in scene.h for the fixed shapes.
+// The rows of the table of primitives, and what each row's functions say; see PrimitiveKind in scene.h for the fixed
+// shapes.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/primitive.h"
@@ -10,7 +11,7 @@
 #include "scene/isosurface.h"
 #include "scene/julia.h"
 #include "scene/dump.h"
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "scene/polynomial.h"
 #include "scene/outline.h"
 #include "scene/sor.h"
@@ -29,87 +30,87 @@ static Vec3 round_corner(double z, double radius, uint32_t i)
     return vec3(radius * cos(angle), radius * sin(angle), z);
 }
 
-static void dump_first(const Part *part, TextBuffer *out)
+static void dump_first(const Primitive *primitive, TextBuffer *out)
 {
-    dump_number(out, "", part->data[0].x);
+    dump_number(out, "", primitive->data[0].x);
 }
 
 // ---- ball
 
-static double ball_support(const Part *part, Vec3 n)
+static double ball_support(const Primitive *primitive, Vec3 n)
 {
-    (void)part;
+    (void)primitive;
     return length_of(n.x, n.y, n.z);
 }
 
-static bool ball_holds(const Part *part, Vec3 p)
+static bool ball_holds(const Primitive *primitive, Vec3 p)
 {
-    (void)part;
+    (void)primitive;
     return vec3_dot(p, p) < 1.0;
 }
 
-// ---- plane: part_support knows the only direction in which it ends, and faces.c what has no corners
+// ---- plane: primitive_support knows the only direction in which it ends, and faces.c what has no corners
 
-static double plane_support(const Part *part, Vec3 n)
+static double plane_support(const Primitive *primitive, Vec3 n)
 {
-    (void)part;
+    (void)primitive;
     (void)n;
     return (double)INFINITY;
 }
 
-static bool plane_holds(const Part *part, Vec3 p)
+static bool plane_holds(const Primitive *primitive, Vec3 p)
 {
-    return vec3_dot(p, part->data[0]) < part->data[1].x;
+    return vec3_dot(p, primitive->data[0]) < primitive->data[1].x;
 }
 
-static void plane_dump(const Part *part, TextBuffer *out)
+static void plane_dump(const Primitive *primitive, TextBuffer *out)
 {
-    dump_vector(out, "", part->data[0]);
-    dump_number(out, ", ", part->data[1].x);
+    dump_vector(out, "", primitive->data[0]);
+    dump_number(out, ", ", primitive->data[1].x);
 }
 
-static uint32_t one_face(const Part *part)
+static uint32_t one_face(const Primitive *primitive)
 {
-    (void)part;
+    (void)primitive;
     return 1;
 }
 
-static uint32_t no_corners(const Part *part)
+static uint32_t no_corners(const Primitive *primitive)
 {
-    (void)part;
+    (void)primitive;
     return 0;
 }
 
 // ---- box
 
-static double box_support(const Part *part, Vec3 n)
+static double box_support(const Primitive *primitive, Vec3 n)
 {
-    const Vec3 *low = &part->data[0], *high = &part->data[1];
+    const Vec3 *low = &primitive->data[0], *high = &primitive->data[1];
     return fmax(low->x * n.x, high->x * n.x) + fmax(low->y * n.y, high->y * n.y) + fmax(low->z * n.z, high->z * n.z);
 }
 
-static bool box_holds(const Part *part, Vec3 p)
+static bool box_holds(const Primitive *primitive, Vec3 p)
 {
-    const Vec3 *low = &part->data[0], *high = &part->data[1];
+    const Vec3 *low = &primitive->data[0], *high = &primitive->data[1];
     return is_between(low->x, p.x, high->x) && is_between(low->y, p.y, high->y) && is_between(low->z, p.z, high->z);
 }
 
-static void box_dump(const Part *part, TextBuffer *out)
+static void box_dump(const Primitive *primitive, TextBuffer *out)
 {
-    dump_vector(out, "", part->data[0]);
-    dump_vector(out, ", ", part->data[1]);
+    dump_vector(out, "", primitive->data[0]);
+    dump_vector(out, ", ", primitive->data[1]);
 }
 
-static uint32_t box_faces(const Part *part)
+static uint32_t box_faces(const Primitive *primitive)
 {
-    (void)part;
+    (void)primitive;
     return 6;
 }
 
-static Vec3 box_corner(const Part *part, uint32_t number, uint32_t i)
+static Vec3 box_corner(const Primitive *primitive, uint32_t number, uint32_t i)
 {
-    const double low[3] = {part->data[0].x, part->data[0].y, part->data[0].z};
-    const double high[3] = {part->data[1].x, part->data[1].y, part->data[1].z};
+    const double low[3] = {primitive->data[0].x, primitive->data[0].y, primitive->data[0].z};
+    const double high[3] = {primitive->data[1].x, primitive->data[1].y, primitive->data[1].z};
     uint32_t axis = number / 2, second = (axis + 1) % 3, third = (axis + 2) % 3;
     double p[3];
     p[axis] = number % 2 ? high[axis] : low[axis];
@@ -118,9 +119,9 @@ static Vec3 box_corner(const Part *part, uint32_t number, uint32_t i)
     return vec3(p[0], p[1], p[2]);
 }
 
-static uint32_t four_corners(const Part *part)
+static uint32_t four_corners(const Primitive *primitive)
 {
-    (void)part;
+    (void)primitive;
     return 4;
 }
 
@@ -131,40 +132,40 @@ static Vec3 box_normal(uint32_t number)
     return vec3(axis == 0 ? side : 0.0, axis == 1 ? side : 0.0, axis == 2 ? side : 0.0);
 }
 
-static void box_measure(const Part *part, Vec3 *half, Vec3 *middle)
+static void box_measure(const Primitive *primitive, Vec3 *half, Vec3 *middle)
 {
-    *half = vec3_scale(0.5, vec3_sub(part->data[1], part->data[0]));
-    *middle = vec3_add(vec3_scale(0.5, part->data[0]), vec3_scale(0.5, part->data[1]));
+    *half = vec3_scale(0.5, vec3_sub(primitive->data[1], primitive->data[0]));
+    *middle = vec3_add(vec3_scale(0.5, primitive->data[0]), vec3_scale(0.5, primitive->data[1]));
 }
 
 // ---- cone
 
-static double cone_support(const Part *part, Vec3 n)
+static double cone_support(const Primitive *primitive, Vec3 n)
 {
     double round = length_of(n.x, n.y, 0.0);
-    return fmax(round, part->data[0].x * round + n.z);
+    return fmax(round, primitive->data[0].x * round + n.z);
 }
 
-static bool cone_holds(const Part *part, Vec3 p)
+static bool cone_holds(const Primitive *primitive, Vec3 p)
 {
-    double radius = 1.0 + (part->data[0].x - 1.0) * p.z;
+    double radius = 1.0 + (primitive->data[0].x - 1.0) * p.z;
     return is_between(0.0, p.z, 1.0) && p.x * p.x + p.y * p.y < radius * radius;
 }
 
-static uint32_t cone_faces(const Part *part)
+static uint32_t cone_faces(const Primitive *primitive)
 {
-    return part->flags & PART_OPEN ? 0 : part->data[0].x > 0.0 ? 2 : 1;
+    return primitive->flags & PRIMITIVE_OPEN ? 0 : primitive->data[0].x > 0.0 ? 2 : 1;
 }
 
-static uint32_t round_corners(const Part *part)
+static uint32_t round_corners(const Primitive *primitive)
 {
-    (void)part;
+    (void)primitive;
     return FACE_CORNERS_MOST;
 }
 
-static Vec3 cone_corner(const Part *part, uint32_t number, uint32_t i)
+static Vec3 cone_corner(const Primitive *primitive, uint32_t number, uint32_t i)
 {
-    return round_corner(number, number ? part->data[0].x : 1.0, i);
+    return round_corner(number, number ? primitive->data[0].x : 1.0, i);
 }
 
 static Vec3 cone_normal(uint32_t number)
@@ -174,22 +175,22 @@ static Vec3 cone_normal(uint32_t number)
 
 // ---- disc
 
-static double disc_support(const Part *part, Vec3 n)
+static double disc_support(const Primitive *primitive, Vec3 n)
 {
-    (void)part;
+    (void)primitive;
     return length_of(n.x, n.y, 0.0);
 }
 
-static bool disc_holds(const Part *part, Vec3 p)
+static bool disc_holds(const Primitive *primitive, Vec3 p)
 {
-    (void)part;
+    (void)primitive;
     return p.z < 0.0;
 }
 
 // A ring is taken in pieces.
-static uint32_t disc_faces(const Part *part)
+static uint32_t disc_faces(const Primitive *primitive)
 {
-    return part->data[0].x > 0.0 ? FACE_CORNERS_MOST : 1;
+    return primitive->data[0].x > 0.0 ? FACE_CORNERS_MOST : 1;
 }
 
 // Of one of the pieces of a ring, its inner edge just outside of the hole.
@@ -200,14 +201,14 @@ static Vec3 ring_corner(double hole, uint32_t number, uint32_t i)
     return vec3(radius * cos(angle), radius * sin(angle), 0.0);
 }
 
-static uint32_t disc_corners(const Part *part)
+static uint32_t disc_corners(const Primitive *primitive)
 {
-    return part->data[0].x > 0.0 ? 4 : FACE_CORNERS_MOST;
+    return primitive->data[0].x > 0.0 ? 4 : FACE_CORNERS_MOST;
 }
 
-static Vec3 disc_corner(const Part *part, uint32_t number, uint32_t i)
+static Vec3 disc_corner(const Primitive *primitive, uint32_t number, uint32_t i)
 {
-    return part->data[0].x > 0.0 ? ring_corner(part->data[0].x, number, i) : round_corner(0.0, 1.0, i);
+    return primitive->data[0].x > 0.0 ? ring_corner(primitive->data[0].x, number, i) : round_corner(0.0, 1.0, i);
 }
 
 static Vec3 flat_normal(uint32_t number)
@@ -218,151 +219,152 @@ static Vec3 flat_normal(uint32_t number)
 
 // ---- triangles
 
-static double triangle_support(const Part *part, Vec3 n)
+static double triangle_support(const Primitive *primitive, Vec3 n)
 {
-    (void)part;
+    (void)primitive;
     return fmax(0.0, fmax(n.x, n.y));
 }
 
-static uint32_t three_corners(const Part *part)
+static uint32_t three_corners(const Primitive *primitive)
 {
-    (void)part;
+    (void)primitive;
     return 3;
 }
 
-static Vec3 triangle_corner(const Part *part, uint32_t number, uint32_t i)
+static Vec3 triangle_corner(const Primitive *primitive, uint32_t number, uint32_t i)
 {
-    (void)part;
+    (void)primitive;
     (void)number;
     return vec3(i == 1, i == 2, 0.0);
 }
 
-static void smooth_triangle_dump(const Part *part, TextBuffer *out)
+static void smooth_triangle_dump(const Primitive *primitive, TextBuffer *out)
 {
-    dump_vector(out, "", part->data[0]);
-    dump_vector(out, ", x, ", part->data[1]);
-    dump_vector(out, ", y, ", part->data[2]);
+    dump_vector(out, "", primitive->data[0]);
+    dump_vector(out, ", x, ", primitive->data[1]);
+    dump_vector(out, ", y, ", primitive->data[2]);
 }
 
 // ---- torus
 
-static double torus_support(const Part *part, Vec3 n)
+static double torus_support(const Primitive *primitive, Vec3 n)
 {
     double round = hypot(n.x, n.z);
-    return part->data[0].x * round + part->data[0].y * hypot(round, n.y);
+    return primitive->data[0].x * round + primitive->data[0].y * hypot(round, n.y);
 }
 
 // With its surface, as in POV-Ray; and what the tube goes through itself in, where it does.
-static bool torus_holds(const Part *part, Vec3 p)
+static bool torus_holds(const Primitive *primitive, Vec3 p)
 {
-    double from = hypot(p.x, p.z) - part->data[0].x, minor = part->data[0].y;
+    double from = hypot(p.x, p.z) - primitive->data[0].x, minor = primitive->data[0].y;
     return from * from + p.y * p.y <= minor * minor;
 }
 
-static void torus_dump(const Part *part, TextBuffer *out)
+static void torus_dump(const Primitive *primitive, TextBuffer *out)
 {
-    dump_number(out, "", part->data[0].x);
-    dump_number(out, ", ", part->data[0].y);
+    dump_number(out, "", primitive->data[0].x);
+    dump_number(out, ", ", primitive->data[0].y);
 }
 
 // The tube, somewhere on the ring.
-static void torus_measure(const Part *part, Vec3 *half, Vec3 *middle)
+static void torus_measure(const Primitive *primitive, Vec3 *half, Vec3 *middle)
 {
-    *half = vec3(part->data[0].y, part->data[0].y, part->data[0].y);
-    *middle = vec3(part->data[0].x, 0.0, 0.0);
+    *half = vec3(primitive->data[0].y, primitive->data[0].y, primitive->data[0].y);
+    *middle = vec3(primitive->data[0].x, 0.0, 0.0);
 }
 
 // ---- polynomial
 
-static double polynomial_support(const Part *part, Vec3 n)
+static double polynomial_support(const Primitive *primitive, Vec3 n)
 {
-    return part_is_endless(part) ? (double)INFINITY : box_support(part, n);
+    return primitive_is_endless(primitive) ? (double)INFINITY : box_support(primitive, n);
 }
 
-static bool polynomial_holds(const Part *part, Vec3 p)
+static bool polynomial_holds(const Primitive *primitive, Vec3 p)
 {
-    return polynomial_value(part->list.items, p) < 0.0;
+    return polynomial_value(primitive->list.items, p) < 0.0;
 }
 
-static void polynomial_dump(const Part *part, TextBuffer *out)
+static void polynomial_dump(const Primitive *primitive, TextBuffer *out)
 {
-    unsigned order = polynomial_order(part->list.items);
+    unsigned order = polynomial_order(primitive->list.items);
     text_printf(out, "%u, ", order);
-    dump_numbers(out, polynomial_terms(part->list.items), polynomial_count(order));
+    dump_numbers(out, polynomial_terms(primitive->list.items), polynomial_count(order));
 }
 
-static uint32_t polynomial_interval_most(const Part *part)
+static uint32_t polynomial_interval_most(const Primitive *primitive)
 {
-    return polynomial_order(part->list.items) / 2 + 1;
+    return polynomial_order(primitive->list.items) / 2 + 1;
 }
 
 // Of one that is endless nothing is known but the map.
-static void polynomial_measure(const Part *part, Vec3 *half, Vec3 *middle)
+static void polynomial_measure(const Primitive *primitive, Vec3 *half, Vec3 *middle)
 {
-    if (part_is_endless(part)) {
+    if (primitive_is_endless(primitive)) {
         *half = vec3(1.0, 1.0, 1.0);
         *middle = vec3(0.0, 0.0, 0.0);
     } else {
-        box_measure(part, half, middle);
+        box_measure(primitive, half, middle);
     }
 }
 
 // ---- blob
 
-static bool blob_holds(const Part *part, Vec3 p)
+static bool blob_holds(const Primitive *primitive, Vec3 p)
 {
-    return blob_field(part->list.items, p) > part->list.items[0];
+    return blob_field(primitive->list.items, p) > primitive->list.items[0];
 }
 
 // Alone it is asked for the first few only.
-static uint32_t blob_part_intervals(const Part *part)
+static uint32_t blob_part_intervals(const Primitive *primitive)
 {
-    return part->node == NODE_NONE ? 4 : blob_interval_most(part->list.items);
+    return primitive->node == NODE_NONE ? 4 : blob_interval_most(primitive->list.items);
 }
 
 // ---- isosurface
 
-static bool surface_holds(const Part *part, Vec3 p)
+static bool surface_holds(const Primitive *primitive, Vec3 p)
 {
-    return isosurface_holds(part->list.items, part->host, p);
+    return isosurface_holds(primitive->list.items, primitive->host, p);
 }
 
 // Alone it is asked for the first surface only.
-static uint32_t isosurface_intervals(const Part *part)
+static uint32_t isosurface_intervals(const Primitive *primitive)
 {
-    return part->node == NODE_NONE ? 2 : ISOSURFACE_ROOTS_MOST + 1;
+    return primitive->node == NODE_NONE ? 2 : ISOSURFACE_ROOTS_MOST + 1;
 }
 
 // ---- prism and polygon
 
-static double prism_support(const Part *part, Vec3 n)
+static double prism_support(const Primitive *primitive, Vec3 n)
 {
-    double low = part->fixed[0].y, high = part->fixed[1].y;
+    double low = primitive->fixed[0].y, high = primitive->fixed[1].y;
     OutlinePoint across = {n.x, n.z};
-    if (!outline_is_conic(&part->list)) {
-        return outline_support(&part->list, across) + fmax(low * n.y, high * n.y);
+    if (!outline_is_conic(&primitive->list)) {
+        return outline_support(&primitive->list, across) + fmax(low * n.y, high * n.y);
     }
     OutlinePoint at_low = {low * n.x, low * n.z}, at_high = {high * n.x, high * n.z};
-    return fmax(outline_support(&part->list, at_low) + low * n.y, outline_support(&part->list, at_high) + high * n.y);
+    return fmax(outline_support(&primitive->list, at_low) + low * n.y,
+                outline_support(&primitive->list, at_high) + high * n.y);
 }
 
-static bool prism_holds(const Part *part, Vec3 p)
+static bool prism_holds(const Primitive *primitive, Vec3 p)
 {
-    bool is_conic = outline_is_conic(&part->list);
+    bool is_conic = outline_is_conic(&primitive->list);
     OutlinePoint seen = is_conic ? (OutlinePoint){p.x / p.y, p.z / p.y} : (OutlinePoint){p.x, p.z};
-    return is_between(part->fixed[0].y, p.y, part->fixed[1].y) && outline_holds(&part->list, seen);
+    return is_between(primitive->fixed[0].y, p.y, primitive->fixed[1].y) && outline_holds(&primitive->list, seen);
 }
 
-static uint32_t outline_intervals(const Part *part)
+static uint32_t outline_intervals(const Primitive *primitive)
 {
-    return outline_crossings_most(&part->list) / 2 + 2;
+    return outline_crossings_most(&primitive->list) / 2 + 2;
 }
 
 // Of straight pieces the first point of each curve, which then ends with it; of others all control points.
-static void outline_dump(const Part *part, TextBuffer *out)
+static void outline_dump(const Primitive *primitive, TextBuffer *out)
 {
-    unsigned degree = outline_degree(&part->list), first = 0;
-    uint32_t pieces = outline_piece_count(&part->list), count = 4 * pieces;
+    unsigned degree = outline_degree(&primitive->list), first = 0;
+    uint32_t pieces = outline_piece_count(&primitive->list), count = 4 * pieces;
     for (int pass = degree == 1 ? 0 : 1; pass < 2; pass++) {
         bool begins = true;
         count = pass ? count : 0;
@@ -370,9 +372,9 @@ static void outline_dump(const Part *part, TextBuffer *out)
             text_printf(out, "%u", count);
         }
         for (uint32_t i = 0; i < pieces; i++) {
-            const double *piece = outline_piece(&part->list, i), *end = piece + 2 * degree;
+            const double *piece = outline_piece(&primitive->list, i), *end = piece + 2 * degree;
             first = begins ? i : first;
-            const double *start = outline_piece(&part->list, first);
+            const double *start = outline_piece(&primitive->list, first);
             for (unsigned k = degree == 1 && !begins ? 1 : 0; k <= degree; k++) {
                 count += pass ? 0 : 1;
                 if (pass) {
@@ -385,46 +387,46 @@ static void outline_dump(const Part *part, TextBuffer *out)
     }
 }
 
-static void prism_dump(const Part *part, TextBuffer *out)
+static void prism_dump(const Primitive *primitive, TextBuffer *out)
 {
-    text_append(out, outline_degree(&part->list) == 1 ? "linear_spline " : "bezier_spline ");
-    text_append(out, outline_is_conic(&part->list) ? "conic_sweep " : "");
-    dump_number(out, "", part->fixed[0].y);
-    dump_number(out, ", ", part->fixed[1].y);
+    text_append(out, outline_degree(&primitive->list) == 1 ? "linear_spline " : "bezier_spline ");
+    text_append(out, outline_is_conic(&primitive->list) ? "conic_sweep " : "");
+    dump_number(out, "", primitive->fixed[0].y);
+    dump_number(out, ", ", primitive->fixed[1].y);
     text_append(out, ", ");
-    outline_dump(part, out);
+    outline_dump(primitive, out);
 }
 
-static double polygon_support(const Part *part, Vec3 n)
+static double polygon_support(const Primitive *primitive, Vec3 n)
 {
-    return outline_support(&part->list, (OutlinePoint){n.x, n.y});
+    return outline_support(&primitive->list, (OutlinePoint){n.x, n.y});
 }
 
 // ---- lathe
 
-static double lathe_support(const Part *part, Vec3 n)
+static double lathe_support(const Primitive *primitive, Vec3 n)
 {
-    double round = hypot(n.x, n.z), right = outline_support(&part->list, (OutlinePoint){round, n.y});
-    bool is_mirrored = part->list.items[OUTLINE_MIRRORED] != 0.0;
-    return is_mirrored ? fmax(right, outline_support(&part->list, (OutlinePoint){-round, n.y})) : right;
+    double round = hypot(n.x, n.z), right = outline_support(&primitive->list, (OutlinePoint){round, n.y});
+    bool is_mirrored = primitive->list.items[OUTLINE_MIRRORED] != 0.0;
+    return is_mirrored ? fmax(right, outline_support(&primitive->list, (OutlinePoint){-round, n.y})) : right;
 }
 
-static bool lathe_holds(const Part *part, Vec3 p)
+static bool lathe_holds(const Primitive *primitive, Vec3 p)
 {
-    return outline_holds_turned(&part->list, hypot(p.x, p.z), p.y);
+    return outline_holds_turned(&primitive->list, hypot(p.x, p.z), p.y);
 }
 
-static uint32_t lathe_intervals(const Part *part)
+static uint32_t lathe_intervals(const Primitive *primitive)
 {
-    return lathe_crossings_most(&part->list) / 2 + 1;
+    return lathe_crossings_most(&primitive->list) / 2 + 1;
 }
 
 // What is not seen is made anew when it is read.
-static void lathe_dump(const Part *part, TextBuffer *out)
+static void lathe_dump(const Primitive *primitive, TextBuffer *out)
 {
-    unsigned degree = outline_degree(&part->list);
-    uint32_t pieces = outline_piece_count(&part->list), seen = 0;
-    while (seen < pieces && outline_piece(&part->list, seen)[PIECE_DEGREE - PIECE_POINTS] != 0.0) {
+    unsigned degree = outline_degree(&primitive->list);
+    uint32_t pieces = outline_piece_count(&primitive->list), seen = 0;
+    while (seen < pieces && outline_piece(&primitive->list, seen)[PIECE_DEGREE - PIECE_POINTS] != 0.0) {
         seen++;
     }
     text_append(out, degree == 1 ? "linear_spline " : "bezier_spline ");
@@ -432,7 +434,7 @@ static void lathe_dump(const Part *part, TextBuffer *out)
     for (uint32_t i = 0; i < seen; i++) {
         for (unsigned k = degree == 1 && i > 0 ? 1 : 0; k <= degree; k++) {
             text_append(out, ", ");
-            dump_numbers(out, outline_piece(&part->list, i) + 2 * k, 2);
+            dump_numbers(out, outline_piece(&primitive->list, i) + 2 * k, 2);
         }
     }
 }
@@ -440,75 +442,75 @@ static void lathe_dump(const Part *part, TextBuffer *out)
 // ---- surface of revolution
 
 // The discs of its ends, the cylinders about its stretches.
-static double sor_support(const Part *part, Vec3 n)
+static double sor_support(const Primitive *primitive, Vec3 n)
 {
     double round = hypot(n.x, n.z), most = -(double)INFINITY;
-    for (uint32_t i = 0; i < sor_stretch_count(&part->list); i++) {
-        const double *f = sor_squares(&part->list, i);
+    for (uint32_t i = 0; i < sor_stretch_count(&primitive->list); i++) {
+        const double *f = sor_squares(&primitive->list, i);
         double square = fmax(fmax(f[0], f[1]), fmax(f[2], f[3]));
-        double y = fmax(sor_height(&part->list, i) * n.y, sor_height(&part->list, i + 1) * n.y);
+        double y = fmax(sor_height(&primitive->list, i) * n.y, sor_height(&primitive->list, i + 1) * n.y);
         most = square >= 0.0 ? fmax(most, round * sqrt(square) + y) : most;
     }
     return most;
 }
 
-static bool sor_part_holds(const Part *part, Vec3 p)
+static bool sor_part_holds(const Primitive *primitive, Vec3 p)
 {
-    return sor_holds(&part->list, p.x * p.x + p.z * p.z, p.y);
+    return sor_holds(&primitive->list, p.x * p.x + p.z * p.z, p.y);
 }
 
-static uint32_t sor_intervals(const Part *part)
+static uint32_t sor_intervals(const Primitive *primitive)
 {
-    return sor_crossings_most(&part->list) / 2 + 1;
+    return sor_crossings_most(&primitive->list) / 2 + 1;
 }
 
-static void sor_dump(const Part *part, TextBuffer *out)
+static void sor_dump(const Primitive *primitive, TextBuffer *out)
 {
-    uint32_t count = sor_point_count(&part->list);
+    uint32_t count = sor_point_count(&primitive->list);
     text_printf(out, "%u", count);
     for (uint32_t i = 0; i < count; i++) {
         text_append(out, ", ");
-        dump_numbers(out, sor_point_at(&part->list, i), 2);
+        dump_numbers(out, sor_point_at(&primitive->list, i), 2);
     }
 }
 
 // ---- superellipsoid
 
-static double superellipsoid_support(const Part *part, Vec3 n)
+static double superellipsoid_support(const Primitive *primitive, Vec3 n)
 {
-    (void)part;
+    (void)primitive;
     return fabs(n.x) + fabs(n.y) + fabs(n.z);
 }
 
-static bool superellipsoid_holds(const Part *part, Vec3 p)
+static bool superellipsoid_holds(const Primitive *primitive, Vec3 p)
 {
-    return superellipsoid_size(part->data[0], p) < 1.0;
+    return superellipsoid_size(primitive->data[0], p) < 1.0;
 }
 
-static void superellipsoid_dump(const Part *part, TextBuffer *out)
+static void superellipsoid_dump(const Primitive *primitive, TextBuffer *out)
 {
-    dump_numbers(out, &part->data[0].x, 2);
+    dump_numbers(out, &primitive->data[0].x, 2);
 }
 
 // ---- sphere sweep
 
-static bool sweep_holds(const Part *part, Vec3 p)
+static bool sweep_holds(const Primitive *primitive, Vec3 p)
 {
-    Sweep sweep = sweep_of(part->list.items);
+    Sweep sweep = sweep_of(primitive->list.items);
     SweepBall ball;
     return sweep_nearest(&sweep, p, &ball) < 0.0;
 }
 
-static uint32_t sweep_interval_most(const Part *part)
+static uint32_t sweep_interval_most(const Primitive *primitive)
 {
-    return SWEEP_PIECES_MOST * sweep_of(part->list.items).segment_count + 1;
+    return SWEEP_PIECES_MOST * sweep_of(primitive->list.items).segment_count + 1;
 }
 
-static void sweep_dump(const Part *part, TextBuffer *out)
+static void sweep_dump(const Primitive *primitive, TextBuffer *out)
 {
     static const char *const words[] = {
         [SWEEP_LINEAR] = "linear_spline", [SWEEP_B_SPLINE] = "b_spline", [SWEEP_CUBIC] = "cubic_spline"};
-    Sweep sweep = sweep_of(part->list.items);
+    Sweep sweep = sweep_of(primitive->list.items);
     text_printf(out, "%s %u", words[sweep.curve], sweep.ball_count);
     for (uint32_t i = 0; i < sweep.ball_count; i++) {
         dump_vector(out, ", ", sweep.balls[i].middle);
@@ -518,21 +520,21 @@ static void sweep_dump(const Part *part, TextBuffer *out)
 
 // ---- Julia fractal
 
-static bool julia_part_holds(const Part *part, Vec3 p)
+static bool julia_part_holds(const Primitive *primitive, Vec3 p)
 {
     double reach;
-    return julia_holds(julia_of(part->list.items), p, &reach);
+    return julia_holds(julia_of(primitive->list.items), p, &reach);
 }
 
 // Alone it is asked for the first surface only.
-static uint32_t julia_part_intervals(const Part *part)
+static uint32_t julia_part_intervals(const Primitive *primitive)
 {
-    return part->node == NODE_NONE ? 2 : JULIA_INTERVALS_MOST + 2;
+    return primitive->node == NODE_NONE ? 2 : JULIA_INTERVALS_MOST + 2;
 }
 
-static void julia_dump(const Part *part, TextBuffer *out)
+static void julia_dump(const Primitive *primitive, TextBuffer *out)
 {
-    const Julia *julia = julia_of(part->list.items);
+    const Julia *julia = julia_of(primitive->list.items);
     dump_numbers(out, julia->p, 4);
     text_append(out, julia->power > 2.0 ? " quaternion cube" : " quaternion sqr");
     dump_number(out, " max_iteration ", julia->step_count);
@@ -544,253 +546,253 @@ static void julia_dump(const Part *part, TextBuffer *out)
 
 // ---- meshes: they reach as far as their boxes
 
-static bool solid_mesh_holds(const Part *part, Vec3 p)
+static bool solid_mesh_holds(const Primitive *primitive, Vec3 p)
 {
-    return mesh_holds(part->mesh.mesh, p);
+    return mesh_holds(primitive->mesh.mesh, p);
 }
 
 // What is below a field of heights is inside, however deep; but what it clips is in POV-Ray's box of it.
-static double solid_mesh_support(const Part *part, Vec3 n)
+static double solid_mesh_support(const Primitive *primitive, Vec3 n)
 {
-    bool is_cut = part->node != NODE_NONE && !(part->flags & PART_UNSEEN);
-    bool is_endless = part->mesh.mesh->field && is_cut && n.y < 0.0;
-    return is_endless ? (double)INFINITY : box_support(part, n);
+    bool is_cut = primitive->node != NODE_NONE && !(primitive->flags & PRIMITIVE_UNSEEN);
+    bool is_endless = primitive->mesh.mesh->field && is_cut && n.y < 0.0;
+    return is_endless ? (double)INFINITY : box_support(primitive, n);
 }
 
 // ---- the table
 
 static const PrimitiveClass classes[] = {
-    [PART_SPHERE] = {.word = "sphere",
-                     .head = "sphere { 0, 1",
-                     .family = FAMILY_ROUND,
-                     .surface = PART_SPHERE,
-                     .interval_count = 1,
-                     .support = ball_support,
-                     .holds = ball_holds},
-    [PART_PLANE] = {.word = "plane",
-                    .head = "plane { ",
-                    .family = FAMILY_STRAIGHT,
-                    .surface = PART_PLANE,
-                    .key_count = 2,
-                    .interval_count = 1,
-                    .support = plane_support,
-                    .holds = plane_holds,
-                    .dump = plane_dump,
-                    .face_count = one_face,
-                    .corner_count = no_corners},
-    [PART_BOX] = {.word = "box",
-                  .head = "box { ",
-                  .family = FAMILY_STRAIGHT,
-                  .surface = PART_BOX,
-                  .key_count = 2,
-                  .interval_count = 1,
-                  .is_sized = true,
-                  .support = box_support,
-                  .holds = box_holds,
-                  .dump = box_dump,
-                  .face_count = box_faces,
-                  .corner_count = four_corners,
-                  .corner = box_corner,
-                  .face_normal = box_normal,
-                  .measure = box_measure},
-    [PART_CONE] = {.word = "cylinder or cone",
-                   .head = "cone { 0, 1, z, ",
-                   .family = FAMILY_STRAIGHT,
-                   .surface = PART_CONE,
-                   .key_count = 2,
-                   .interval_count = 1,
-                   .support = cone_support,
-                   .holds = cone_holds,
-                   .dump = dump_first,
-                   .face_count = cone_faces,
-                   .corner_count = round_corners,
-                   .corner = cone_corner,
-                   .face_normal = cone_normal},
-    [PART_DISC] = {.word = "disc",
-                   .head = "disc { 0, z, 1, ",
-                   .family = FAMILY_STRAIGHT,
-                   .surface = PART_DISC,
-                   .key_count = 2,
-                   .support = disc_support,
-                   .holds = disc_holds,
-                   .dump = dump_first,
-                   .face_count = disc_faces,
-                   .corner_count = disc_corners,
-                   .corner = disc_corner,
-                   .face_normal = flat_normal},
-    [PART_TRIANGLE] = {.word = "triangle",
-                       .head = "triangle { 0, x, y",
+    [PRIMITIVE_SPHERE] = {.word = "sphere",
+                          .head = "sphere { 0, 1",
+                          .family = FAMILY_ROUND,
+                          .surface = PRIMITIVE_SPHERE,
+                          .interval_count = 1,
+                          .support = ball_support,
+                          .holds = ball_holds},
+    [PRIMITIVE_PLANE] = {.word = "plane",
+                         .head = "plane { ",
+                         .family = FAMILY_STRAIGHT,
+                         .surface = PRIMITIVE_PLANE,
+                         .key_count = 2,
+                         .interval_count = 1,
+                         .support = plane_support,
+                         .holds = plane_holds,
+                         .dump = plane_dump,
+                         .face_count = one_face,
+                         .corner_count = no_corners},
+    [PRIMITIVE_BOX] = {.word = "box",
+                       .head = "box { ",
                        .family = FAMILY_STRAIGHT,
-                       .surface = PART_TRIANGLE,
-                       .support = triangle_support,
-                       .face_count = one_face,
-                       .corner_count = three_corners,
-                       .corner = triangle_corner,
-                       .face_normal = flat_normal},
-    [PART_SMOOTH_TRIANGLE] = {.word = "smooth triangle",
-                              .head = "smooth_triangle { 0, ",
-                              .family = FAMILY_STRAIGHT,
-                              .surface = PART_TRIANGLE,
-                              .support = triangle_support,
-                              .dump = smooth_triangle_dump,
-                              .face_count = one_face,
-                              .corner_count = three_corners,
-                              .corner = triangle_corner,
-                              .face_normal = flat_normal},
-    [PART_TORUS] = {.word = "torus",
-                    .head = "torus { ",
-                    .family = FAMILY_TUBE,
-                    .surface = PART_TORUS,
-                    .key_count = 1,
-                    .interval_count = 2,
-                    .support = torus_support,
-                    .holds = torus_holds,
-                    .dump = torus_dump,
-                    .measure = torus_measure},
-    [PART_POLYNOMIAL] = {.word = "polynomial",
-                         .head = "poly { ",
-                         .family = FAMILY_POLYNOMIAL,
-                         .surface = PART_POLYNOMIAL,
+                       .surface = PRIMITIVE_BOX,
+                       .key_count = 2,
+                       .interval_count = 1,
+                       .is_sized = true,
+                       .support = box_support,
+                       .holds = box_holds,
+                       .dump = box_dump,
+                       .face_count = box_faces,
+                       .corner_count = four_corners,
+                       .corner = box_corner,
+                       .face_normal = box_normal,
+                       .measure = box_measure},
+    [PRIMITIVE_CONE] = {.word = "cylinder or cone",
+                        .head = "cone { 0, 1, z, ",
+                        .family = FAMILY_STRAIGHT,
+                        .surface = PRIMITIVE_CONE,
+                        .key_count = 2,
+                        .interval_count = 1,
+                        .support = cone_support,
+                        .holds = cone_holds,
+                        .dump = dump_first,
+                        .face_count = cone_faces,
+                        .corner_count = round_corners,
+                        .corner = cone_corner,
+                        .face_normal = cone_normal},
+    [PRIMITIVE_DISC] = {.word = "disc",
+                        .head = "disc { 0, z, 1, ",
+                        .family = FAMILY_STRAIGHT,
+                        .surface = PRIMITIVE_DISC,
+                        .key_count = 2,
+                        .support = disc_support,
+                        .holds = disc_holds,
+                        .dump = dump_first,
+                        .face_count = disc_faces,
+                        .corner_count = disc_corners,
+                        .corner = disc_corner,
+                        .face_normal = flat_normal},
+    [PRIMITIVE_TRIANGLE] = {.word = "triangle",
+                            .head = "triangle { 0, x, y",
+                            .family = FAMILY_STRAIGHT,
+                            .surface = PRIMITIVE_TRIANGLE,
+                            .support = triangle_support,
+                            .face_count = one_face,
+                            .corner_count = three_corners,
+                            .corner = triangle_corner,
+                            .face_normal = flat_normal},
+    [PRIMITIVE_SMOOTH_TRIANGLE] = {.word = "smooth triangle",
+                                   .head = "smooth_triangle { 0, ",
+                                   .family = FAMILY_STRAIGHT,
+                                   .surface = PRIMITIVE_TRIANGLE,
+                                   .support = triangle_support,
+                                   .dump = smooth_triangle_dump,
+                                   .face_count = one_face,
+                                   .corner_count = three_corners,
+                                   .corner = triangle_corner,
+                                   .face_normal = flat_normal},
+    [PRIMITIVE_TORUS] = {.word = "torus",
+                         .head = "torus { ",
+                         .family = FAMILY_TUBE,
+                         .surface = PRIMITIVE_TORUS,
+                         .key_count = 1,
+                         .interval_count = 2,
+                         .support = torus_support,
+                         .holds = torus_holds,
+                         .dump = torus_dump,
+                         .measure = torus_measure},
+    [PRIMITIVE_POLYNOMIAL] = {.word = "polynomial",
+                              .head = "poly { ",
+                              .family = FAMILY_POLYNOMIAL,
+                              .surface = PRIMITIVE_POLYNOMIAL,
+                              .key_count = 3,
+                              .interval_count = 2,
+                              .has_list = true,
+                              .is_sized = true,
+                              .interval_most = polynomial_interval_most,
+                              .support = polynomial_support,
+                              .holds = polynomial_holds,
+                              .dump = polynomial_dump,
+                              .measure = polynomial_measure},
+    [PRIMITIVE_BLOB] = {.word = "blob",
+                        .head = "blob { ",
+                        .family = FAMILY_BLOB,
+                        .surface = PRIMITIVE_BLOB,
+                        .key_count = 3,
+                        .interval_count = 2,
+                        .has_list = true,
+                        .is_sized = true,
+                        .interval_most = blob_part_intervals,
+                        .support = box_support,
+                        .holds = blob_holds,
+                        .measure = box_measure},
+    [PRIMITIVE_PRISM] = {.word = "prism",
+                         .head = "prism { ",
+                         .family = FAMILY_STRAIGHT,
+                         .surface = PRIMITIVE_PRISM,
                          .key_count = 3,
                          .interval_count = 2,
+                         .interval_most = outline_intervals,
                          .has_list = true,
                          .is_sized = true,
-                         .interval_most = polynomial_interval_most,
-                         .support = polynomial_support,
-                         .holds = polynomial_holds,
-                         .dump = polynomial_dump,
-                         .measure = polynomial_measure},
-    [PART_BLOB] = {.word = "blob",
-                   .head = "blob { ",
-                   .family = FAMILY_BLOB,
-                   .surface = PART_BLOB,
-                   .key_count = 3,
-                   .interval_count = 2,
-                   .has_list = true,
-                   .is_sized = true,
-                   .interval_most = blob_part_intervals,
-                   .support = box_support,
-                   .holds = blob_holds,
-                   .measure = box_measure},
-    [PART_PRISM] = {.word = "prism",
-                    .head = "prism { ",
-                    .family = FAMILY_STRAIGHT,
-                    .surface = PART_PRISM,
-                    .key_count = 3,
-                    .interval_count = 2,
-                    .interval_most = outline_intervals,
-                    .has_list = true,
-                    .is_sized = true,
-                    .support = prism_support,
-                    .holds = prism_holds,
-                    .dump = prism_dump,
-                    .measure = box_measure},
-    [PART_POLYGON] = {.word = "polygon",
-                      .head = "polygon { ",
-                      .family = FAMILY_STRAIGHT,
-                      .surface = PART_POLYGON,
-                      .key_count = 3,
-                      .has_list = true,
-                      .is_sized = true,
-                      .support = polygon_support,
-                      .dump = outline_dump,
-                      .measure = box_measure},
-    [PART_LATHE] = {.word = "lathe",
-                    .head = "lathe { ",
-                    .family = FAMILY_STRAIGHT,
-                    .surface = PART_LATHE,
-                    .key_count = 3,
-                    .interval_count = 2,
-                    .interval_most = lathe_intervals,
-                    .has_list = true,
-                    .is_sized = true,
-                    .support = lathe_support,
-                    .holds = lathe_holds,
-                    .dump = lathe_dump,
-                    .measure = box_measure},
-    [PART_SOR] = {.word = "sor",
-                  .head = "sor { ",
-                  .family = FAMILY_STRAIGHT,
-                  .surface = PART_SOR,
-                  .key_count = 3,
-                  .interval_count = 2,
-                  .interval_most = sor_intervals,
-                  .has_list = true,
-                  .is_sized = true,
-                  .support = sor_support,
-                  .holds = sor_part_holds,
-                  .dump = sor_dump,
-                  .measure = box_measure},
-    [PART_SUPERELLIPSOID] = {.word = "superellipsoid",
-                             .head = "superellipsoid { ",
-                             .family = FAMILY_STRAIGHT,
-                             .surface = PART_SUPERELLIPSOID,
-                             .key_count = 1,
-                             .interval_count = SUPERELLIPSOID_INTERVALS,
-                             .support = superellipsoid_support,
-                             .holds = superellipsoid_holds,
-                             .dump = superellipsoid_dump},
-    [PART_SWEEP] = {.word = "sphere sweep",
-                    .head = "sphere_sweep { ",
-                    .family = FAMILY_STRAIGHT,
-                    .surface = PART_SWEEP,
-                    .key_count = 3,
-                    .interval_count = 2,
-                    .interval_most = sweep_interval_most,
-                    .has_list = true,
-                    .is_sized = true,
-                    .support = box_support,
-                    .holds = sweep_holds,
-                    .dump = sweep_dump,
-                    .measure = box_measure},
-    [PART_JULIA] = {.word = "Julia fractal",
-                    .head = "julia_fractal { ",
-                    .family = FAMILY_ISOSURFACE,
-                    .surface = PART_JULIA,
-                    .key_count = 3,
-                    .interval_count = 2,
-                    .interval_most = julia_part_intervals,
-                    .has_list = true,
-                    .is_sized = true,
-                    .support = box_support,
-                    .holds = julia_part_holds,
-                    .dump = julia_dump,
-                    .measure = box_measure},
-    [PART_ISOSURFACE] = {.word = "isosurface",
-                         .head = "isosurface {",
-                         .family = FAMILY_ISOSURFACE,
-                         .surface = PART_ISOSURFACE,
+                         .support = prism_support,
+                         .holds = prism_holds,
+                         .dump = prism_dump,
+                         .measure = box_measure},
+    [PRIMITIVE_POLYGON] = {.word = "polygon",
+                           .head = "polygon { ",
+                           .family = FAMILY_STRAIGHT,
+                           .surface = PRIMITIVE_POLYGON,
+                           .key_count = 3,
+                           .has_list = true,
+                           .is_sized = true,
+                           .support = polygon_support,
+                           .dump = outline_dump,
+                           .measure = box_measure},
+    [PRIMITIVE_LATHE] = {.word = "lathe",
+                         .head = "lathe { ",
+                         .family = FAMILY_STRAIGHT,
+                         .surface = PRIMITIVE_LATHE,
                          .key_count = 3,
                          .interval_count = 2,
-                         .interval_most = isosurface_intervals,
+                         .interval_most = lathe_intervals,
+                         .has_list = true,
+                         .is_sized = true,
+                         .support = lathe_support,
+                         .holds = lathe_holds,
+                         .dump = lathe_dump,
+                         .measure = box_measure},
+    [PRIMITIVE_SOR] = {.word = "sor",
+                       .head = "sor { ",
+                       .family = FAMILY_STRAIGHT,
+                       .surface = PRIMITIVE_SOR,
+                       .key_count = 3,
+                       .interval_count = 2,
+                       .interval_most = sor_intervals,
+                       .has_list = true,
+                       .is_sized = true,
+                       .support = sor_support,
+                       .holds = sor_part_holds,
+                       .dump = sor_dump,
+                       .measure = box_measure},
+    [PRIMITIVE_SUPERELLIPSOID] = {.word = "superellipsoid",
+                                  .head = "superellipsoid { ",
+                                  .family = FAMILY_STRAIGHT,
+                                  .surface = PRIMITIVE_SUPERELLIPSOID,
+                                  .key_count = 1,
+                                  .interval_count = SUPERELLIPSOID_INTERVALS,
+                                  .support = superellipsoid_support,
+                                  .holds = superellipsoid_holds,
+                                  .dump = superellipsoid_dump},
+    [PRIMITIVE_SWEEP] = {.word = "sphere sweep",
+                         .head = "sphere_sweep { ",
+                         .family = FAMILY_STRAIGHT,
+                         .surface = PRIMITIVE_SWEEP,
+                         .key_count = 3,
+                         .interval_count = 2,
+                         .interval_most = sweep_interval_most,
                          .has_list = true,
                          .is_sized = true,
                          .support = box_support,
-                         .holds = surface_holds,
+                         .holds = sweep_holds,
+                         .dump = sweep_dump,
                          .measure = box_measure},
-    [PART_MESH] = {.word = "mesh",
-                   .head = "",
-                   .family = FAMILY_STRAIGHT,
-                   .surface = PART_MESH,
-                   .key_count = 1,
-                   .is_mesh = true,
-                   .is_sized = true,
-                   .support = box_support,
-                   .measure = box_measure},
-    [PART_MESH_SOLID] = {.word = "mesh",
-                         .head = "",
-                         .family = FAMILY_STRAIGHT,
-                         .surface = PART_MESH,
-                         .key_count = 1,
+    [PRIMITIVE_JULIA] = {.word = "Julia fractal",
+                         .head = "julia_fractal { ",
+                         .family = FAMILY_ISOSURFACE,
+                         .surface = PRIMITIVE_JULIA,
+                         .key_count = 3,
                          .interval_count = 2,
-                         .is_mesh = true,
+                         .interval_most = julia_part_intervals,
+                         .has_list = true,
                          .is_sized = true,
-                         .support = solid_mesh_support,
-                         .holds = solid_mesh_holds,
-                               .measure = box_measure},
+                         .support = box_support,
+                         .holds = julia_part_holds,
+                         .dump = julia_dump,
+                         .measure = box_measure},
+    [PRIMITIVE_ISOSURFACE] = {.word = "isosurface",
+                              .head = "isosurface {",
+                              .family = FAMILY_ISOSURFACE,
+                              .surface = PRIMITIVE_ISOSURFACE,
+                              .key_count = 3,
+                              .interval_count = 2,
+                              .interval_most = isosurface_intervals,
+                              .has_list = true,
+                              .is_sized = true,
+                              .support = box_support,
+                              .holds = surface_holds,
+                              .measure = box_measure},
+    [PRIMITIVE_MESH] = {.word = "mesh",
+                        .head = "",
+                        .family = FAMILY_STRAIGHT,
+                        .surface = PRIMITIVE_MESH,
+                        .key_count = 1,
+                        .is_mesh = true,
+                        .is_sized = true,
+                        .support = box_support,
+                        .measure = box_measure},
+    [PRIMITIVE_MESH_SOLID] = {.word = "mesh",
+                              .head = "",
+                              .family = FAMILY_STRAIGHT,
+                              .surface = PRIMITIVE_MESH,
+                              .key_count = 1,
+                              .interval_count = 2,
+                              .is_mesh = true,
+                              .is_sized = true,
+                              .support = solid_mesh_support,
+                              .holds = solid_mesh_holds,
+                              .measure = box_measure},
 };
 
-const PrimitiveClass *primitive_class(PartKind kind)
+const PrimitiveClass *primitive_class(PrimitiveKind kind)
 {
     return &classes[kind];
 }

@@ -1,6 +1,6 @@
 // The table of kinds of primitives: all that is said of a kind but how rays meet it (trace/solid.c).
 //
-// A row is what makes a kind one; whoever asks about a part asks its row. Constant data, shared by all threads.
+// A row is what makes a kind one; whoever asks about a primitive asks its row. Constant data, shared by all threads.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_PRIMITIVE_H
@@ -26,40 +26,40 @@ typedef struct PrimitiveClass {
     const char *word;     // what messages call it
     const char *head;     // of the block in a dump, up to what `dump` adds
     SurfaceFamily family;
-    PartKind surface;     // the first kind of those whose surfaces are the same when map and numbers are
+    PrimitiveKind surface; // the first kind of those whose surfaces are the same when map and numbers are
     uint8_t key_count;    // of data[] that make one surface another
     uint8_t interval_count; // that a line has in it, at most; 0: it is flat and has no inside, but a line meets it once
     bool has_list;        // data[2] is a list of numbers
     bool is_mesh;         // it is made of faces: a line meets it any number of times
     bool is_sized;        // data[0] and data[1] are its bounds; else those are -1 and 1 in each coordinate
-    uint32_t (*interval_most)(const Part *part); // where that depends on its list; NULL: interval_count
+    uint32_t (*interval_most)(const Primitive *primitive); // where that depends on its list; NULL: interval_count
     // The greatest p·n over the points of the fixed shape.
-    double (*support)(const Part *part, Vec3 n);
+    double (*support)(const Primitive *primitive, Vec3 n);
     // Whether a point of the fixed shape's space (of a plane: of the scene) is inside. A disc has all below it inside.
-    bool (*holds)(const Part *part, Vec3 p); // NULL: nothing is
-    void (*dump)(const Part *part, TextBuffer *out); // NULL: nothing
+    bool (*holds)(const Primitive *primitive, Vec3 p);         // NULL: nothing is
+    void (*dump)(const Primitive *primitive, TextBuffer *out); // NULL: nothing
     // Its flat faces, by number: how many there are, the corners of one (of a plane 0), and the normal out of the shape,
     // in the fixed shape's space; NULL: none.
-    uint32_t (*face_count)(const Part *part);
-    uint32_t (*corner_count)(const Part *part);
-    Vec3 (*corner)(const Part *part, uint32_t number, uint32_t i);
+    uint32_t (*face_count)(const Primitive *primitive);
+    uint32_t (*corner_count)(const Primitive *primitive);
+    Vec3 (*corner)(const Primitive *primitive, uint32_t number, uint32_t i);
     Vec3 (*face_normal)(uint32_t number);
     // Half of what it is along each coordinate, and where that is, in the fixed shape's space; NULL: 1, and 0.
-    void (*measure)(const Part *part, Vec3 *half, Vec3 *middle);
+    void (*measure)(const Primitive *primitive, Vec3 *half, Vec3 *middle);
 } PrimitiveClass;
 
-const PrimitiveClass *primitive_class(PartKind kind);
+const PrimitiveClass *primitive_class(PrimitiveKind kind);
 
-static inline bool primitive_is_flat(PartKind kind)
+static inline bool primitive_kind_is_flat(PrimitiveKind kind)
 {
     return primitive_class(kind)->interval_count == 0;
 }
 
-// How many intervals a line has in the part, at most; 0: it is flat.
-static inline uint32_t primitive_intervals(const Part *part)
+// How many intervals a line has in the primitive, at most; 0: it is flat.
+static inline uint32_t primitive_interval_most(const Primitive *primitive)
 {
-    const PrimitiveClass *primitive = primitive_class(part->kind);
-    return primitive->interval_most ? primitive->interval_most(part) : primitive->interval_count;
+    const PrimitiveClass *class = primitive_class(primitive->kind);
+    return class->interval_most ? class->interval_most(primitive) : class->interval_count;
 }
 
 #endif

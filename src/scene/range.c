@@ -9,7 +9,7 @@
 #include <pthread.h>
 
 #include "base/parallel.h"
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 
 // As vec3_max_abs, for numbers.
@@ -92,27 +92,27 @@ typedef struct Extent {
     Vec3 place;
     uint64_t source;
     const char *what; // of a part it is made when it is reported
-    const Part *part; // or NULL
+    const Primitive *part; // or NULL
 } Extent;
 
 static const char *extent_name(const Extent *extent)
 {
-    return extent->part ? part_name(extent->part) : extent->what;
+    return extent->part ? primitive_name(extent->part) : extent->what;
 }
 
-static Extent part_extent(const Part *part)
+static Extent part_extent(const Primitive *primitive)
 {
-    const Transform *map = &part->to_world;
-    const PrimitiveClass *primitive = primitive_class(part->kind);
+    const Transform *map = &primitive->to_world;
+    const PrimitiveClass *class = primitive_class(primitive->kind);
     Extent extent = {
         .size = max_abs(vec3(row_size(map, 0), row_size(map, 1), row_size(map, 2))),
         .place = vec3(map->m[3][0], map->m[3][1], map->m[3][2]),
-        .source = part->source,
-        .part = part,
+        .source = primitive->source,
+        .part = primitive,
     };
-    if (primitive->measure) {
+    if (class->measure) {
         Vec3 half, middle;
-        primitive->measure(part, &half, &middle);
+        class->measure(primitive, &half, &middle);
         extent.size = fmax(fmax(half.x * row_size(map, 0), half.y * row_size(map, 1)), half.z * row_size(map, 2));
         extent.place = transform_point(map, middle);
     }
@@ -133,12 +133,12 @@ static void visit_others(const Scene *scene, ExtentVisitor *visit, void *client)
     for (size_t i = 0; i < scene->planes.count; i++) {
         visit(client, 0.0, fabs(scene->planes.items[i].distance), false);
     }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        const Part *part = &scene->parts.items[i];
-        if (part->kind == PART_PLANE) {
-            visit(client, 0.0, fabs(part->data[1].x), false);
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        if (primitive->kind == PRIMITIVE_PLANE) {
+            visit(client, 0.0, fabs(primitive->data[1].x), false);
         } else {
-            visit_extent(visit, client, part_extent(part));
+            visit_extent(visit, client, part_extent(primitive));
         }
     }
     for (size_t i = 0; i < scene->lights.count; i++) {
@@ -240,8 +240,8 @@ static void census_visit(void *client, double size, double place, bool is_needed
 // The exponents at which the most is held, the nearest such run to `middle`.
 static ExponentRange exponents_of_most(const Scene *scene, int middle)
 {
-    Census census = {
-        .needed = (int32_t)(scene->spheres.count + scene->planes.count + scene->parts.count + scene->lights.count + 1)};
+    Census census = {.needed = (int32_t)(scene->spheres.count + scene->planes.count + scene->primitives.count +
+                                         scene->lights.count + 1)};
     int64_t held = 0, most = -1;
     int nearest = INT_MAX;
     ExponentRange best = {0, 0}, run = {0, 0};
@@ -478,12 +478,12 @@ void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSin
     for (size_t i = 0; i < scene->planes.count; i++) {
         check_plane(&watch, scene->planes.items[i].distance, scene->planes.items[i].source);
     }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        const Part *part = &scene->parts.items[i];
-        if (part->kind == PART_PLANE) {
-            check_plane(&watch, part->data[1].x, part->source);
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        if (primitive->kind == PRIMITIVE_PLANE) {
+            check_plane(&watch, primitive->data[1].x, primitive->source);
         } else {
-            Extent extent = part_extent(part);
+            Extent extent = part_extent(primitive);
             check_extent(&watch, &extent, not_seen_perhaps);
         }
     }

@@ -53,6 +53,6 @@ bool scene_range_tells(const Scene *scene, const SphereSurvey *survey, const Sph
 bool scene_warn_of_coincident(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
 
 // Whether that takes two parts for equal.
-bool scene_parts_coincide(const Part *a, const Part *b);
+bool scene_primitives_coincide(const Primitive *a, const Primitive *b);
 
 #endif

@@ -69,12 +69,12 @@ static bool axis_gains(const Scene *scene, int number, const RecentreAxis *spher
     for (size_t i = 0; axis.is_exact && i < scene->planes.count; i++) {
         axis_add_plane(&axis, number, &scene->planes.items[i].normal, scene->planes.items[i].distance);
     }
-    for (size_t i = 0; axis.is_exact && i < scene->parts.count; i++) {
-        const Part *part = &scene->parts.items[i];
-        if (part->kind == PART_PLANE) {
-            axis_add_plane(&axis, number, &part->data[0], part->data[1].x);
+    for (size_t i = 0; axis.is_exact && i < scene->primitives.count; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        if (primitive->kind == PRIMITIVE_PLANE) {
+            axis_add_plane(&axis, number, &primitive->data[0], primitive->data[1].x);
         } else {
-            axis_add(&axis, part->to_world.m[3][number]);
+            axis_add(&axis, primitive->to_world.m[3][number]);
         }
     }
     return axis.is_exact && axis.left * GAIN_LEAST <= axis.greatest;
@@ -105,12 +105,12 @@ static void move(Scene *scene, Vec3 by)
     for (size_t i = 0; i < scene->planes.count; i++) {
         scene->planes.items[i].distance += vec3_dot(scene->planes.items[i].normal, by);
     }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        Part *part = &scene->parts.items[i];
-        if (part->kind == PART_PLANE) {
-            part->data[1].x += vec3_dot(part->data[0], by);
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        Primitive *primitive = &scene->primitives.items[i];
+        if (primitive->kind == PRIMITIVE_PLANE) {
+            primitive->data[1].x += vec3_dot(primitive->data[0], by);
         } else {
-            move_row(part->to_world.m[3], by);
+            move_row(primitive->to_world.m[3], by);
         }
     }
     for (size_t i = 0; i < scene->start_shapes.count; i++) {

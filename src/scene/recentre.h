@@ -17,7 +17,7 @@ typedef struct RecentreAxis {
     bool is_exact;
 } RecentreAxis;
 
-// Of the spheres of a part of a scene, and of two parts together.
+// Of the spheres of a part of a scene, and of two primitives together.
 void scene_recentre_measure(const Scene *scene, RecentreAxis axes[3]);
 void scene_recentre_join(RecentreAxis axes[3], const RecentreAxis more[3]);
 

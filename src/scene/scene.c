@@ -56,11 +56,11 @@ void scene_init(Scene *scene)
 
 // All its lists, and the indices of those that keep each different record once.
 #define SCENE_LISTS(X)                                                                                                 \
-    X(sky) X(fogs) X(rainbows) X(lights) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps)       \
-    X(warps)                                                                                                           \
-    X(picture_sources) X(picture_shades) X(image_maps) X(pictures) X(slope_entries) X(normal_entries) X(normals)       \
-    X(texture_entries) X(textures) X(interiors) X(compounds) X(spheres) X(sphere_runs) X(planes) X(parts) X(meshes)    \
-    X(face_materials) X(blobs) X(nodes) X(composites) X(start_shapes) X(bodies)
+    X(sky)                                                                                                             \
+    X(fogs) X(rainbows) X(lights) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps) X(warps)    \
+        X(picture_sources) X(picture_shades) X(image_maps) X(pictures) X(slope_entries) X(normal_entries) X(normals)   \
+            X(texture_entries) X(textures) X(interiors) X(compounds) X(spheres) X(sphere_runs) X(planes) X(primitives) \
+                X(meshes) X(face_materials) X(blobs) X(nodes) X(composites) X(start_shapes) X(bodies)
 #define SCENE_INDICES(X)                                                                                               \
     X(finish) X(material) X(pigment_entry) X(pattern) X(slope_entry) X(normal_entry) X(normal) X(texture_entry)        \
     X(texture) X(interior) X(compound) X(picture_source) X(picture_shade) X(image_map) X(formula_step) X(warp)

@@ -208,12 +208,12 @@ typedef struct Scene {
     SphereSurvey survey;
     ARRAY(SphereRun) sphere_runs; // in their order; the first begins with the first sphere
     ARRAY(Plane) planes;
-    ARRAY(Part) parts;
-    NumberPool numbers; // the lists of parts
+    ARRAY(Primitive) primitives;
+    NumberPool numbers;        // the lists of primitives
     FormulaHost *formula_host; // of isosurfaces that want one, its own; NULL: none does
     double text_unit;          // a length of 1 of the scene's text, by which isosurfaces measure; not 1 at another scale
     Vec3 text_origin;          // where its origin is, which surfaces without coordinates of their own ask for
-    ARRAY(Mesh *) meshes; // owned; parts may share one
+    ARRAY(Mesh *) meshes;      // owned; primitives may share one
     size_t mesh_bytes;    // of all of them
     uint32_t plain_mesh_count; // of them, without textures of their own
     ARRAY(MaterialIndex) face_materials;
@@ -223,7 +223,7 @@ typedef struct Scene {
     ARRAY(StartShape) start_shapes; // in the order of shapes
     ARRAY(Body) bodies;
     uint32_t inner_body_count; // bodies within composites
-    uint32_t shape_count; // spheres, planes, composites and parts that stand alone
+    uint32_t shape_count;      // spheres, planes, composites and primitives that stand alone
     UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, slope_entry_index, normal_entry_index,
         normal_index, texture_entry_index, texture_index, interior_index, compound_index, picture_source_index,
         picture_shade_index, image_map_index, formula_step_index, warp_index;
@@ -295,7 +295,7 @@ static inline Rgbft pigment_colour(const Pigment *pigment)
 // Each shape once, be it alone or in a composite.
 static inline uint64_t scene_shapes_in_all(const Scene *scene)
 {
-    return (uint64_t)scene->spheres.count + scene->planes.count + scene->parts.count;
+    return (uint64_t)scene->spheres.count + scene->planes.count + scene->primitives.count;
 }
 
 // Add a record; `order` and shape_count are set here. False when out of memory.
@@ -337,8 +337,8 @@ bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIn
 // Takes over a mesh, whose number is set.
 bool scene_add_mesh(Scene *scene, Mesh *mesh) RT_MUST_CHECK;
 
-// Adds a part that stands alone; its list of numbers, if it has one, is copied.
-bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;
+// Adds a primitive that stands alone; its list of numbers, if it has one, is copied.
+bool scene_add_primitive(Scene *scene, const Primitive *primitive) RT_MUST_CHECK;
 
 // A composite begins, then come its nodes and leaves in their order, each with its parent; scene_end_composite sets
 // what is counted. A leaf's `node` and a node's `parent` are indices into Scene.nodes.
@@ -347,7 +347,7 @@ bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, u
                     uint32_t *index) RT_MUST_CHECK;
 // What formulas of shapes ask; NULL when out of memory.
 const FormulaHost *scene_formula_host(Scene *scene) RT_MUST_CHECK;
-bool scene_add_leaf(Scene *scene, const Part *part) RT_MUST_CHECK;
+bool scene_add_leaf(Scene *scene, const Primitive *primitive) RT_MUST_CHECK;
 void scene_end_composite(Scene *scene);
 // Bytes of stack that a ray takes in the largest of them.
 size_t scene_composite_stack(const Scene *scene);
@@ -360,7 +360,7 @@ void scene_end_body(Scene *scene, uint32_t index, bool is_kept);
 // The innermost body that holds the shape at a place in the order of declaration; RECORD_NONE for none.
 uint32_t scene_body(const Scene *scene, uint32_t order);
 
-// A number that is the same for surfaces of one body and no others. `inner` is a leaf's Part.body, else 0.
+// A number that is the same for surfaces of one body and no others. `inner` is a leaf's Primitive.body, else 0.
 uint64_t scene_body_key(const Scene *scene, uint32_t order, uint32_t inner);
 
 // The same as if each shape were a body, and whether a key is that of a shape, whose order is its lower half.

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 
 // Where squares would not fit, too.
 static double length_of(Vec3 a)
@@ -23,17 +23,17 @@ static void reach_add(SceneExtent *reach, Vec3 eye, Vec3 centre, double radius)
     reach->nearest_far = fmax(reach->nearest_far, distance - radius);
 }
 
-// The ball around the box around a part; what is endless has none.
-static void reach_add_part(SceneExtent *reach, Vec3 eye, const Part *part)
+// The ball around the box around a primitive; what is endless has none.
+static void reach_add_part(SceneExtent *reach, Vec3 eye, const Primitive *primitive)
 {
     static const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double middle[3], half[3];
 
-    if (part_is_endless(part)) {
+    if (primitive_is_endless(primitive)) {
         return;
     }
     for (int i = 0; i < 3; i++) {
-        double high = part_support(part, axes[i]), low = -part_support(part, vec3_neg(axes[i]));
+        double high = primitive_support(primitive, axes[i]), low = -primitive_support(primitive, vec3_neg(axes[i]));
         middle[i] = 0.5 * (high + low);
         half[i] = 0.5 * (high - low);
     }
@@ -49,8 +49,8 @@ void scene_extent(const Scene *scene, SceneExtent *reach)
     for (size_t i = 0; i < scene->spheres.count; i++) {
         reach_add(reach, eye, scene->spheres.items[i].centre, scene->spheres.items[i].radius);
     }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        reach_add_part(reach, eye, &scene->parts.items[i]);
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        reach_add_part(reach, eye, &scene->primitives.items[i]);
     }
 }
 
@@ -65,11 +65,11 @@ bool scene_span(const Scene *scene, Vec3 direction, double *low, double *high)
         *low = fmin(*low, middle - aside);
         *high = fmax(*high, middle + aside);
     }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        const Part *part = &scene->parts.items[i];
-        if (!part_is_endless(part)) {
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        if (!primitive_is_endless(primitive)) {
             double least, most;
-            part_span(part, direction, &least, &most);
+            primitive_span(primitive, direction, &least, &most);
             *low = fmin(*low, least);
             *high = fmax(*high, most);
         }
@@ -97,9 +97,9 @@ void scene_move_camera(Scene *scene, double factor)
     for (size_t i = 0; i < scene->spheres.count; i++) {
         mean_add(&sum, &count, scene->spheres.items[i].centre);
     }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        if (scene->parts.items[i].kind != PART_PLANE) {
-            mean_add(&sum, &count, transform_place(&scene->parts.items[i].to_world));
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        if (scene->primitives.items[i].kind != PRIMITIVE_PLANE) {
+            mean_add(&sum, &count, transform_place(&scene->primitives.items[i].to_world));
         }
     }
     Vec3 middle = count > 0 ? vec3_scale(1.0 / (double)count, sum) : vec3_add(camera->location, direction);

@@ -1,4 +1,4 @@
-// The scene's shapes: spheres in runs, planes, parts, composites and bodies, in order of declaration.
+// The scene's shapes: spheres in runs, planes, primitives, composites and bodies, in order of declaration.
 //
 // Turns calls of whoever makes the scene into growable arrays. Checks nothing: that is validate.c.
 //
@@ -155,7 +155,7 @@ bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first)
     return true;
 }
 
-// ---- planes, meshes, parts
+// ---- planes, meshes, primitives
 
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material, uint64_t source)
 {
@@ -179,25 +179,25 @@ bool scene_add_mesh(Scene *scene, Mesh *mesh)
 }
 
 // Its list of numbers becomes the scene's.
-static bool add_part(Scene *scene, const Part *part)
+static bool add_primitive(Scene *scene, const Primitive *primitive)
 {
-    if (!ARRAY_PUSH(&scene->parts, *part)) {
+    if (!ARRAY_PUSH(&scene->primitives, *primitive)) {
         return false;
     }
-    if (primitive_class(part->kind)->has_list &&
-        !numbers_keep(&scene->numbers, &scene->parts.items[scene->parts.count - 1].list)) {
-        scene->parts.count--;
+    if (primitive_class(primitive->kind)->has_list &&
+        !numbers_keep(&scene->numbers, &scene->primitives.items[scene->primitives.count - 1].list)) {
+        scene->primitives.count--;
         return false;
     }
     return true;
 }
 
-bool scene_add_part(Scene *scene, const Part *part)
+bool scene_add_primitive(Scene *scene, const Primitive *primitive)
 {
-    if (scene->shape_count == UINT32_MAX || !add_part(scene, part)) {
+    if (scene->shape_count == UINT32_MAX || !add_primitive(scene, primitive)) {
         return false;
     }
-    Part *added = &scene->parts.items[scene->parts.count - 1];
+    Primitive *added = &scene->primitives.items[scene->primitives.count - 1];
     added->node = NODE_NONE;
     added->order = scene->shape_count++;
     return true;
@@ -209,7 +209,7 @@ bool scene_begin_composite(Scene *scene, uint8_t hidden, uint64_t source)
 {
     Composite composite = {
         .first_node = (uint32_t)scene->nodes.count,
-        .first_part = (uint32_t)scene->parts.count,
+        .first_primitive = (uint32_t)scene->primitives.count,
         .start_clips = UINT32_MAX,
         .hidden = hidden,
         .order = scene->shape_count,
@@ -228,7 +228,7 @@ bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, u
         .op = op,
         .is_inverse = is_inverse,
         .parent = parent,
-        .first_part = (uint32_t)scene->parts.count,
+        .first_primitive = (uint32_t)scene->primitives.count,
         .source = source,
     };
     *index = (uint32_t)scene->nodes.count;
@@ -241,42 +241,42 @@ bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, u
     return true;
 }
 
-bool scene_add_leaf(Scene *scene, const Part *part)
+bool scene_add_leaf(Scene *scene, const Primitive *primitive)
 {
-    if (!add_part(scene, part)) {
+    if (!add_primitive(scene, primitive)) {
         return false;
     }
-    scene->parts.items[scene->parts.count - 1].order = scene->shape_count - 1;
-    scene->nodes.items[part->node].child_count++;
+    scene->primitives.items[scene->primitives.count - 1].order = scene->shape_count - 1;
+    scene->nodes.items[primitive->node].child_count++;
     return true;
 }
 
-// What a ray keeps of each interval of its line in a part: as an interval, and in a composite as two crossings.
+// What a ray keeps of each interval of its line in a primitive: as an interval, and in a composite as two crossings.
 enum { INTERVAL_STACK = 96, CROSSINGS_STACK = 2 * 40 };
 // And of a mesh, which it looks for along its line.
 enum { MESH_CURSOR_STACK = 1056 };
 
-static size_t part_stack(const Part *part)
+static size_t primitive_stack(const Primitive *primitive)
 {
-    unsigned intervals = primitive_intervals(part);
-    bool is_mesh = part->kind == PART_MESH || part->kind == PART_MESH_SOLID;
-    return COMPOSITE_PART_STACK + (is_mesh ? (size_t)MESH_CURSOR_STACK : 0) +
+    unsigned intervals = primitive_interval_most(primitive);
+    bool is_mesh = primitive->kind == PRIMITIVE_MESH || primitive->kind == PRIMITIVE_MESH_SOLID;
+    return COMPOSITE_PRIMITIVE_STACK + (is_mesh ? (size_t)MESH_CURSOR_STACK : 0) +
            (intervals > 1 ? (size_t)intervals * CROSSINGS_STACK : 0);
 }
 
 size_t scene_composite_stack(const Scene *scene)
 {
     size_t most = 0;
-    for (size_t i = 0; i < scene->parts.count; i++) { // one at a time
-        size_t bytes = (size_t)primitive_intervals(&scene->parts.items[i]) * INTERVAL_STACK;
+    for (size_t i = 0; i < scene->primitives.count; i++) { // one at a time
+        size_t bytes = (size_t)primitive_interval_most(&scene->primitives.items[i]) * INTERVAL_STACK;
         most = bytes > most ? bytes : most;
     }
     size_t alone = most;
     for (size_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];
         size_t bytes = alone + (size_t)composite->node_count * COMPOSITE_NODE_STACK;
-        for (uint32_t k = 0; k < composite->part_count; k++) {
-            bytes += part_stack(&scene->parts.items[composite->first_part + k]);
+        for (uint32_t k = 0; k < composite->primitive_count; k++) {
+            bytes += primitive_stack(&scene->primitives.items[composite->first_primitive + k]);
         }
         most = bytes > most ? bytes : most;
     }
@@ -287,7 +287,7 @@ void scene_end_composite(Scene *scene)
 {
     Composite *composite = &scene->composites.items[scene->composites.count - 1];
     composite->node_count = (uint32_t)scene->nodes.count - composite->first_node;
-    composite->part_count = (uint32_t)scene->parts.count - composite->first_part;
+    composite->primitive_count = (uint32_t)scene->primitives.count - composite->first_primitive;
 }
 
 // ---- bodies

@@ -1,4 +1,4 @@
-// Scene records of shapes: spheres, planes and parts, what they are cut to, and which of them are one body.
+// Scene records of shapes: spheres, planes and primitives, what they are cut to, and which of them are one body.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_SHAPE_H
@@ -61,35 +61,35 @@ typedef struct Plane {
 //                   of theirs is greater than 1, and one is at least 1/2
 //   julia           a Julia fractal (scene/julia.h), within the box from fixed[0] to fixed[1]
 //   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
-typedef enum PartKind {
-    PART_SPHERE,
-    PART_PLANE,
-    PART_BOX,
-    PART_CONE,
-    PART_DISC,
-    PART_TRIANGLE,
-    PART_SMOOTH_TRIANGLE,
-    PART_TORUS,
-    PART_POLYNOMIAL,
-    PART_BLOB,
-    PART_PRISM,
-    PART_POLYGON,
-    PART_LATHE,
-    PART_SOR,
-    PART_SUPERELLIPSOID,
-    PART_SWEEP,
-    PART_JULIA,
-    PART_ISOSURFACE,
-    PART_MESH,
-    PART_MESH_SOLID,
-    PART_KINDS
-} PartKind;
+typedef enum PrimitiveKind {
+    PRIMITIVE_SPHERE,
+    PRIMITIVE_PLANE,
+    PRIMITIVE_BOX,
+    PRIMITIVE_CONE,
+    PRIMITIVE_DISC,
+    PRIMITIVE_TRIANGLE,
+    PRIMITIVE_SMOOTH_TRIANGLE,
+    PRIMITIVE_TORUS,
+    PRIMITIVE_POLYNOMIAL,
+    PRIMITIVE_BLOB,
+    PRIMITIVE_PRISM,
+    PRIMITIVE_POLYGON,
+    PRIMITIVE_LATHE,
+    PRIMITIVE_SOR,
+    PRIMITIVE_SUPERELLIPSOID,
+    PRIMITIVE_SWEEP,
+    PRIMITIVE_JULIA,
+    PRIMITIVE_ISOSURFACE,
+    PRIMITIVE_MESH,
+    PRIMITIVE_MESH_SOLID,
+    PRIMITIVE_KINDS
+} PrimitiveKind;
 
-typedef enum PartFlag {
-    PART_INVERSE = 1, // inside and outside change places
-    PART_OPEN = 2,    // of a cone, prism or sor side 0 alone is seen: not the ends
-    PART_UNSEEN = 4,  // clips others, has no surface itself
-} PartFlag;
+typedef enum PrimitiveFlag {
+    PRIMITIVE_INVERSE = 1, // inside and outside change places
+    PRIMITIVE_OPEN = 2,    // of a cone, prism or sor side 0 alone is seen: not the ends
+    PRIMITIVE_UNSEEN = 4,  // clips others, has no surface itself
+} PrimitiveFlag;
 
 // Rays that pass a shape as if it were not there.
 typedef enum HiddenFrom { HIDDEN_CAMERA = 1, HIDDEN_SHADOW = 2, HIDDEN_MIRROR = 4 } HiddenFrom;
@@ -103,16 +103,16 @@ static inline bool hidden_meet(uint8_t a, uint8_t b)
 #define NODE_NONE UINT32_MAX
 
 // What a mesh has in the place of numbers. Each of its faces has one of Scene.face_materials from `materials` on, or,
-// where it has no texture of its own, the part's material.
-typedef struct PartMesh {
+// where it has no texture of its own, the primitive's material.
+typedef struct PrimitiveMesh {
     Vec3 low, high;
-    const Mesh *mesh; // of Scene.meshes, or of whoever made the part
+    const Mesh *mesh; // of Scene.meshes, or of whoever made the primitive
     uint64_t materials;
-} PartMesh;
+} PrimitiveMesh;
 
-typedef struct Part {
-    PartKind kind;
-    uint8_t flags, hidden;  // PartFlag, HiddenFrom bits; hidden counts only outside of composites
+typedef struct Primitive {
+    PrimitiveKind kind;
+    uint8_t flags, hidden;  // PrimitiveFlag, HiddenFrom bits; hidden counts only outside of composites
     uint32_t node;          // of the scene, that it is a leaf of; NODE_NONE alone
     MaterialIndex material; // of no meaning when unseen
     uint32_t order;         // of a leaf: the composite's
@@ -123,12 +123,12 @@ typedef struct Part {
         Vec3 data[3];
         struct { // of a kind that has a list of numbers (scene/primitive.h): its bounds or more of them, and the list
             Vec3 fixed[2];
-            Numbers list; // the scene's, once the part is added: equal lists are at one place
+            Numbers list;            // the scene's, once the primitive is added: equal lists are at one place
             const FormulaHost *host; // of an isosurface that asks for noise or patterns; else NULL
         };
-        PartMesh mesh; // of a mesh
+        PrimitiveMesh mesh; // of a mesh
     };
-} Part;
+} Primitive;
 
 typedef enum NodeOp {
     NODE_UNION,        // inside where some child is; all surfaces are seen
@@ -142,30 +142,35 @@ typedef struct Node {
     bool is_inverse;
     uint32_t parent; // NODE_NONE: the root
     uint32_t child_count;
-    uint32_t first_part; // parts that stand before it in the scene
-    uint32_t body;       // as of a part
+    uint32_t first_primitive; // primitives that stand before it in the scene
+    uint32_t body;            // as of a primitive
     uint64_t source;
 } Node;
 
 // A ray keeps a few words for each leaf and node of a composite on its stack, which these bytes are enough for.
-enum { COMPOSITE_PARTS_MOST = 100000, COMPOSITE_NODES_MOST = 200000, COMPOSITE_PART_STACK = 96, COMPOSITE_NODE_STACK = 8 };
+enum {
+    COMPOSITE_PRIMITIVES_MOST = 100000,
+    COMPOSITE_NODES_MOST = 200000,
+    COMPOSITE_PRIMITIVE_STACK = 96,
+    COMPOSITE_NODE_STACK = 8
+};
 
-// A tree of nodes over parts. Nodes and parts stand in the order of the text, a node before what is in it.
+// A tree of nodes over primitives. Nodes and primitives stand in the order of the text, a node before what is in it.
 typedef struct Composite {
     uint32_t first_node, node_count; // the root first
-    uint32_t first_part, part_count;
+    uint32_t first_primitive, primitive_count;
     uint32_t start_clips; // children of a NODE_CLIP root, from this one on, that do not count where a ray starts
     uint8_t hidden; // HiddenFrom bits
     uint32_t order;
     uint64_t source;
 } Composite;
 
-// A part or composite of which the surface does not tell whether a ray starts inside: one that is clipped, turned inside
-// out, a disc, or with a union in it. It does in a box only; what clips all of it does not count. As in POV-Ray.
+// A primitive or composite of which the surface does not tell whether a ray starts inside: one that is clipped, turned
+// inside out, a disc, or with a union in it. It does in a box only; what clips all of it does not count. As in POV-Ray.
 typedef struct StartShape {
     Vec3 low, high; // of the box
     uint32_t order;
-    uint32_t index; // of the part, or of the composite
+    uint32_t index; // of the primitive, or of the composite
     bool is_composite;
     bool is_endless;        // its box is
     bool is_filled;         // with what `material` holds, and not only its members are

@@ -27,7 +27,7 @@ static uint32_t greatest_body(const Scene *scene, const Places *places)
 {
     uint32_t greatest = 0;
     for (size_t i = 0; i < places->parts; i++) {
-        greatest = scene->parts.items[i].body > greatest ? scene->parts.items[i].body : greatest;
+        greatest = scene->primitives.items[i].body > greatest ? scene->primitives.items[i].body : greatest;
     }
     for (size_t i = 0; i < places->nodes; i++) {
         greatest = scene->nodes.items[i].body > greatest ? scene->nodes.items[i].body : greatest;
@@ -49,7 +49,7 @@ static Places places_before(const Scene *scene, uint32_t order)
     Places places = {.order = order};
     BEFORE(scene->sphere_runs, order, order, places.runs);
     BEFORE(scene->planes, order, order, places.planes);
-    BEFORE(scene->parts, order, order, places.parts);
+    BEFORE(scene->primitives, order, order, places.parts);
     BEFORE(scene->composites, order, order, places.composites);
     BEFORE(scene->start_shapes, order, order, places.starts);
     BEFORE(scene->bodies, first, order, places.bodies);
@@ -67,7 +67,7 @@ void scene_keep_shapes(Scene *scene, uint32_t count)
     scene_spheres_change(scene);
     scene->sphere_runs.count = places.runs;
     scene->planes.count = places.planes;
-    scene->parts.count = places.parts;
+    scene->primitives.count = places.parts;
     scene->nodes.count = places.nodes;
     scene->composites.count = places.composites;
     scene->start_shapes.count = places.starts;
@@ -128,7 +128,7 @@ static bool are_planes_same(const Stretches *s)
     return is_same;
 }
 
-static bool is_part_same(const Stretches *s, const Part *a, const Part *b)
+static bool is_part_same(const Stretches *s, const Primitive *a, const Primitive *b)
 {
     return a->kind == b->kind && a->flags == b->flags && a->hidden == b->hidden &&
            moved(a->node, s->one.nodes, s->other.nodes) == b->node &&
@@ -140,9 +140,9 @@ static bool is_part_same(const Stretches *s, const Part *a, const Part *b)
 static bool are_parts_same(const Stretches *s)
 {
     const Scene *scene = s->scene;
-    bool is_same = scene->parts.count - s->other.parts == s->other.parts - s->one.parts;
-    for (size_t i = s->other.parts, k = s->one.parts; is_same && i < scene->parts.count; i++, k++) {
-        is_same = is_part_same(s, &scene->parts.items[k], &scene->parts.items[i]);
+    bool is_same = scene->primitives.count - s->other.parts == s->other.parts - s->one.parts;
+    for (size_t i = s->other.parts, k = s->one.parts; is_same && i < scene->primitives.count; i++, k++) {
+        is_same = is_part_same(s, &scene->primitives.items[k], &scene->primitives.items[i]);
     }
     return is_same;
 }
@@ -156,13 +156,14 @@ static bool are_composites_same(const Stretches *s)
         const Node *a = &scene->nodes.items[k], *b = &scene->nodes.items[i];
         is_same = a->op == b->op && a->is_inverse == b->is_inverse && a->child_count == b->child_count &&
                   moved(a->parent, s->one.nodes, s->other.nodes) == b->parent &&
-                  moved(a->first_part, s->one.parts, s->other.parts) == b->first_part &&
+                  moved(a->first_primitive, s->one.parts, s->other.parts) == b->first_primitive &&
                   moved_body(a->body, s) == b->body;
     }
     for (size_t i = s->other.composites, k = s->one.composites; is_same && i < scene->composites.count; i++, k++) {
         const Composite *a = &scene->composites.items[k], *b = &scene->composites.items[i];
-        is_same = a->node_count == b->node_count && a->part_count == b->part_count && a->hidden == b->hidden &&
-                  a->start_clips == b->start_clips && moved(a->order, s->one.order, s->other.order) == b->order;
+        is_same = a->node_count == b->node_count && a->primitive_count == b->primitive_count &&
+                  a->hidden == b->hidden && a->start_clips == b->start_clips &&
+                  moved(a->order, s->one.order, s->other.order) == b->order;
     }
     return is_same;
 }

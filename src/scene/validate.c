@@ -132,16 +132,16 @@ static bool shapes_are_valid(const Scene *scene, const SphereSurvey *survey, Dia
 static bool parts_are_valid(const Scene *scene, DiagSink *diags)
 {
     bool valid = true;
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        const Part *part = &scene->parts.items[i];
-        bool is_finite = transform_is_finite(&part->to_world) && transform_is_finite(&part->to_object);
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        bool is_finite = transform_is_finite(&primitive->to_world) && transform_is_finite(&primitive->to_object);
         for (int k = 0; k < 3; k++) {
-            is_finite = is_finite && vec3_is_finite(part->data[k]);
+            is_finite = is_finite && vec3_is_finite(primitive->data[k]);
         }
-        bool is_seen = !(part->flags & PART_UNSEEN);
-        if (!is_finite || (is_seen && !scene_has_material(scene, part->material)) ||
-            (part->node != NODE_NONE && part->node >= scene->nodes.count)) {
-            valid = fault(diags, DIAG_E0413, part->source, "the shape cannot be represented");
+        bool is_seen = !(primitive->flags & PRIMITIVE_UNSEEN);
+        if (!is_finite || (is_seen && !scene_has_material(scene, primitive->material)) ||
+            (primitive->node != NODE_NONE && primitive->node >= scene->nodes.count)) {
+            valid = fault(diags, DIAG_E0413, primitive->source, "the shape cannot be represented");
         }
     }
     return valid;

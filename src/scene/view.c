@@ -8,7 +8,7 @@
 #include <math.h>
 
 #include "scene/opaque.h"
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 
 enum { SIDES = 5 };
 
@@ -44,10 +44,10 @@ static bool sees_ball(const View *view, Vec3 centre, double radius)
     return true;
 }
 
-static bool sees_part(const View *view, const Part *part)
+static bool sees_part(const View *view, const Primitive *primitive)
 {
     for (int i = 0; i < SIDES; i++) {
-        if (part_support(part, view->normals[i]) < view->least[i]) {
+        if (primitive_support(primitive, view->normals[i]) < view->least[i]) {
             return false;
         }
     }
@@ -73,8 +73,8 @@ static bool sees_anything(const Scene *scene, const View *view)
     for (size_t i = 0; !is_seen && i < scene->planes.count; i++) {
         is_seen = sees_plane(&scene->camera, &scene->planes.items[i]);
     }
-    for (size_t i = 0; !is_seen && i < scene->parts.count; i++) {
-        is_seen = sees_part(view, &scene->parts.items[i]);
+    for (size_t i = 0; !is_seen && i < scene->primitives.count; i++) {
+        is_seen = sees_part(view, &scene->primitives.items[i]);
     }
     for (size_t i = 0; !is_seen && i < scene->spheres.count; i++) {
         is_seen = sees_ball(view, scene->spheres.items[i].centre, scene->spheres.items[i].radius);
@@ -117,7 +117,7 @@ static bool holds(const Sphere *sphere, Vec3 point)
 // A sky around the whole scene has shapes or lights in it as well.
 static bool holds_other_things(const Scene *scene, const Sphere *outer)
 {
-    bool holds_some = scene->planes.count + scene->parts.count > 0;
+    bool holds_some = scene->planes.count + scene->primitives.count > 0;
     for (size_t i = 0; !holds_some && i < scene->lights.count; i++) {
         holds_some = holds(outer, scene->lights.items[i].position);
     }

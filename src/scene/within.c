@@ -1,23 +1,24 @@
-// A part is asked in its own space, a composite by its tree, from the root down.
+// A primitive is asked in its own space, a composite by its tree, from the root down.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/within.h"
 
 #include "scene/primitive.h"
 
-bool within_part(const Part *part, Vec3 point)
+bool within_part(const Primitive *primitive, Vec3 point)
 {
-    const double *origin = part->to_world.m[3];
+    const double *origin = primitive->to_world.m[3];
     Vec3 p = point;
-    if (part->kind != PART_PLANE) { // a scene that is put near the origin has only the linear part of to_object
-        p = transform_direction(&part->to_object, vec3_sub(point, vec3(origin[0], origin[1], origin[2])));
+    if (primitive->kind !=
+        PRIMITIVE_PLANE) { // a scene that is put near the origin has only the linear primitive of to_object
+        p = transform_direction(&primitive->to_object, vec3_sub(point, vec3(origin[0], origin[1], origin[2])));
     }
-    const PrimitiveClass *primitive = primitive_class(part->kind);
-    if (!primitive->holds) {
+    const PrimitiveClass *class = primitive_class(primitive->kind);
+    if (!class->holds) {
         return false;
     }
-    bool is_inside = primitive->holds(part, p);
-    return is_inside != ((part->flags & PART_INVERSE) != 0);
+    bool is_inside = class->holds(primitive, p);
+    return is_inside != ((primitive->flags & PRIMITIVE_INVERSE) != 0);
 }
 
 // Where a tree is being read: the next node and part, and the ends of both.
@@ -32,8 +33,8 @@ static bool within_node(TreeCursor *at, Vec3 point);
 // A node stands before what is in it: of a node and a part with as many parts before them the node is the first.
 static bool within_child(TreeCursor *at, Vec3 point)
 {
-    bool is_node = at->node < at->node_end && at->scene->nodes.items[at->node].first_part <= at->part;
-    return is_node ? within_node(at, point) : within_part(&at->scene->parts.items[at->part++], point);
+    bool is_node = at->node < at->node_end && at->scene->nodes.items[at->node].first_primitive <= at->part;
+    return is_node ? within_node(at, point) : within_part(&at->scene->primitives.items[at->part++], point);
 }
 
 // Recursive, as deep as objects are in one another. All children are read, so that the cursor is behind them.
@@ -58,7 +59,7 @@ bool within_composite(const Scene *scene, const Composite *composite, Vec3 point
         .scene = scene,
         .node = composite->first_node,
         .node_end = composite->first_node + composite->node_count,
-        .part = composite->first_part,
+        .part = composite->first_primitive,
         .start_clips = composite->start_clips,
     };
     return within_node(&at, point);

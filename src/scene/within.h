@@ -6,8 +6,8 @@
 
 #include "scene/scene.h"
 
-// Of a part that stands alone. A disc has all that is below it for its inside, a triangle nothing.
-bool within_part(const Part *part, Vec3 point);
+// Of a primitive that stands alone. A disc has all that is below it for its inside, a triangle nothing.
+bool within_part(const Primitive *primitive, Vec3 point);
 
 // Of a composite, as where a ray starts (StartShape).
 bool within_composite(const Scene *scene, const Composite *composite, Vec3 point);

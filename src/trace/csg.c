@@ -19,10 +19,10 @@
 // of it, a merge where none is on the outer side.
 static bool crossing_shows(const CsgTraversal *p, const Crossing *c, bool is_after)
 {
-    const Solid *solid = traversal_solid(p, c->solid);
-    bool leaves = c->leaves != (bool)(solid->flags & PART_INVERSE);
-    bool is_child_inside = !solid_is_flat(solid) && p->is_inside[c->solid];
-    uint32_t at = solid->node;
+    const PreparedPrimitive *primitive = traversal_primitive(p, c->solid);
+    bool leaves = c->leaves != (bool)(primitive->flags & PRIMITIVE_INVERSE);
+    bool is_child_inside = !primitive_is_flat(primitive) && p->is_inside[c->solid];
+    uint32_t at = primitive->node;
     while (at != NODE_NONE) {
         const TreeNode *node = &p->table->nodes[at];
         uint32_t inside = p->inside[at - p->csg->first_node];
@@ -51,7 +51,7 @@ RT_ALWAYS_INLINE bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t 
         const Crossing *c = &p->crossings[i];
         if (!c->is_film) {
             traversal_toggle(p, c->solid);
-            p->is_over = p->is_over || (c->leaves && traversal_solid(p, c->solid)->decides);
+            p->is_over = p->is_over || (c->leaves && traversal_primitive(p, c->solid)->decides);
         }
     }
     Crossing *seen = NULL;
@@ -62,12 +62,12 @@ RT_ALWAYS_INLINE bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t 
         }
     }
     if (seen && seen->face != MESH_NO_FACE) {
-        uint32_t face = traversal_solid(p, seen->solid)->mesh.first_face + seen->face;
+        uint32_t face = traversal_primitive(p, seen->solid)->mesh.first_face + seen->face;
         face_offer(p->table, shape_id(SHAPE_FACE, face), p->ray, seen->t,
                    crossing_span(seen->t, crossing_error(p, seen), p->enter), first);
     } else if (seen) {
-        solid_offer(p->table, p->csg->first_solid + seen->solid, p->ray, seen->t,
-                    crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
+        primitive_offer(p->table, p->csg->first_primitive + seen->solid, p->ray, seen->t,
+                        crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
     }
     return seen;
 }
@@ -75,7 +75,7 @@ RT_ALWAYS_INLINE bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t 
 static void traversal_set_state(CsgTraversal *p, uint32_t index)
 {
     bool is_inside = p->is_inside[index];
-    p->is_inside[index] = traversal_solid(p, index)->flags & PART_INVERSE;
+    p->is_inside[index] = traversal_primitive(p, index)->flags & PRIMITIVE_INVERSE;
     if (is_inside) {
         traversal_toggle(p, index);
     }
@@ -89,7 +89,7 @@ RT_ALWAYS_INLINE void traversal_set_states(CsgTraversal *p)
     for (uint32_t i = 0; i < csg->node_count; i++) {
         p->inside[i] = p->table->nodes[csg->first_node + i].idle_inside;
     }
-    for (uint32_t i = 0; i < csg->solid_count && !csg->parts; i++) {
+    for (uint32_t i = 0; i < csg->primitive_count && !csg->parts; i++) {
         traversal_set_state(p, i);
     }
     for (uint32_t i = 0; csg->parts && i < csg->parts->loose_count; i++) {
@@ -130,14 +130,15 @@ static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
 RT_ALWAYS_INLINE void traversal_ask(CsgTraversal *p, uint32_t index, RayStart start, bool has_meshes)
 {
     const CsgTree *csg = p->csg;
-    bool is_own = starts_on_part(start) && table_part(p->table, start.shape) - csg->first_solid < csg->solid_count;
+    bool is_own = starts_on_primitive(start) &&
+                  table_primitive_index(p->table, start.shape) - csg->first_primitive < csg->primitive_count;
     p->is_inside[index] = false;
-    if (has_meshes && solid_is_mesh(traversal_solid(p, index))) {
+    if (has_meshes && primitive_is_mesh(traversal_primitive(p, index))) {
         traversal_mesh_begin(p, index);
-    } else if (solid_is_flat(traversal_solid(p, index))) {
+    } else if (primitive_is_flat(traversal_primitive(p, index))) {
         traversal_flat(p, index, start);
     } else {
-        traversal_solid_begin(p, index, start, is_own);
+        traversal_primitive_begin(p, index, start, is_own);
     }
 }
 
@@ -147,13 +148,13 @@ static void traversal_judge_seen(CsgTraversal *p, double limit)
     p->is_over = p->is_over || isinf(p->first_surface) || traversal_is_beyond(p, p->first_surface, limit);
 }
 
-// Where some solids are not convex, the others, which cost less, are asked first: mostly those that are needed are
+// Where some primitives are not convex, the others, which cost less, are asked first: mostly those that are needed are
 // missed.
 static void traversal_begin_convex(CsgTraversal *p, RayStart start, double limit, bool has_meshes)
 {
     for (int turn = 0; turn < 2; turn++) {
-        for (uint32_t i = 0; i < p->csg->solid_count && !p->is_over; i++) {
-            if (solid_is_convex(traversal_solid(p, i)) == (turn == 0)) {
+        for (uint32_t i = 0; i < p->csg->primitive_count && !p->is_over; i++) {
+            if (primitive_is_convex(traversal_primitive(p, i)) == (turn == 0)) {
                 traversal_ask(p, i, start, has_meshes);
             }
         }
@@ -168,7 +169,7 @@ RT_ALWAYS_INLINE void traversal_begin(CsgTraversal *p, RayStart start, double li
         traversal_begin_convex(p, start, limit, has_meshes);
         return;
     }
-    for (uint32_t i = 0; i < p->csg->solid_count && !p->is_over; i++) {
+    for (uint32_t i = 0; i < p->csg->primitive_count && !p->is_over; i++) {
         traversal_ask(p, i, start, false);
         if (i + 1 == p->csg->seen_count) {
             traversal_judge_seen(p, limit);
@@ -184,15 +185,15 @@ static void traversal_order(CsgTraversal *p)
     }
 }
 
-// ---- many parts, with a tree
+// ---- many primitives, with a tree
 
 static uint32_t csg_words(const CsgTree *csg)
 {
-    return (csg->solid_count - 1) / 64 + 1;
+    return (csg->primitive_count - 1) / 64 + 1;
 }
 
-// How far leaves are asked first: mostly the first surface of the loose parts is seen, and what lies behind it matters
-// to nobody. Without one they are asked all at once.
+// How far leaves are asked first: mostly the first surface of the loose primitives is seen, and what lies behind it
+// matters to nobody. Without one they are asked all at once.
 static double traversal_first_reach(CsgTraversal *p)
 {
     for (uint32_t i = 0; i < p->count; i++) {
@@ -205,10 +206,10 @@ static double traversal_first_reach(CsgTraversal *p)
     return (double)INFINITY;
 }
 
-// Asks the loose parts, all that are seen perhaps among them.
+// Asks the loose primitives, all that are seen perhaps among them.
 static void traversal_begin_loose(CsgTraversal *p, RayStart start, double limit)
 {
-    const CsgParts *parts = p->csg->parts;
+    const CsgPrimitives *parts = p->csg->parts;
     for (uint32_t i = 0; i < parts->loose_count && !p->is_over; i++) {
         traversal_ask(p, parts->loose[i], start, p->csg->mesh_count > 0);
     }
@@ -239,7 +240,7 @@ static void traversal_reach(CsgTraversal *p, RayStart start, double until)
     p->nearest_share = 0.0;
 }
 
-// ---- many parts that only clip, joined by one node
+// ---- many primitives that only clip, joined by one node
 
 // Whether the ray is inside of one of them all the way along some crossings.
 typedef struct Joined {
@@ -252,10 +253,10 @@ static bool joined_ask(void *client, uint32_t index)
 {
     Joined *of = client;
     CsgTraversal *p = of->p;
-    const Solid *solid = traversal_solid(p, index);
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
     RayInterval interval; // it is convex
-    p->objects[index] = solid_ray(solid, p->ray);
-    if (solid_intervals(solid, &p->objects[index], LEFT_NONE, &interval) == 0) {
+    p->objects[index] = primitive_ray(primitive, p->ray);
+    if (primitive_intervals(primitive, &p->objects[index], LEFT_NONE, &interval) == 0) {
         return false;
     }
     double enter_bound = end_bound(p, index, interval.enter, interval.enter_side);
@@ -384,10 +385,10 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
                               double start_error, double enter, bool has_meshes, Foremost *first)
 {
     uint32_t inside[csg->node_count];
-    bool is_inside[csg->solid_count];
+    bool is_inside[csg->primitive_count];
     Crossing crossings[csg->crossing_count];
     RayInterval intervals[csg->interval_most];
-    Ray objects[csg->solid_count];
+    Ray objects[csg->primitive_count];
     MeshCursor cursors[has_meshes ? csg->mesh_count : 1];
     CsgTraversal p = {.table = table,
                       .csg = csg,

@@ -1,4 +1,5 @@
-// Boxes of composites by contraction: a box that holds what is looked for is made smaller by one part after the other.
+// Boxes of composites by contraction: a box that holds what is looked for is made smaller by one primitive after the
+// other.
 //
 // What is seen of an intersection lies in all of its children, so each of them may take of the box what cannot be in
 // it; of a union, the box around what the children leave. A plane bounds a coordinate by the others, a quadric the
@@ -29,9 +30,9 @@ typedef struct Quadric {
     double square[3], cross[3], linear[3], constant;
 } Quadric;
 
-static bool is_quadric(const Solid *solid)
+static bool is_quadric(const PreparedPrimitive *primitive)
 {
-    return solid->kind == PART_POLYNOMIAL && polynomial_order(solid->list.items) == 2;
+    return primitive->kind == PRIMITIVE_POLYNOMIAL && polynomial_order(primitive->list.items) == 2;
 }
 
 // ---- boxes
@@ -78,7 +79,7 @@ static Bounds box_through(const Linear *map, Vec3 moved, const Bounds *box)
     return image;
 }
 
-// ---- parts
+// ---- primitives
 
 // The half space n·p <= distance.
 static void plane_contract(const double n[3], double distance, Bounds *box)
@@ -163,16 +164,16 @@ static void quadric_contract(const Quadric *q, Bounds *box)
 }
 
 // What a quadric is in a frame: with p -> p M + m, the form's matrix S becomes M S Mᵀ.
-static Quadric quadric_in(const Solid *solid, const Frame *frame)
+static Quadric quadric_in(const PreparedPrimitive *primitive, const Frame *frame)
 {
-    const double *c = polynomial_terms(solid->list.items);
+    const double *c = polynomial_terms(primitive->list.items);
     const double s[3][3] = {
         {c[0], 0.5 * c[1], 0.5 * c[2]}, {0.5 * c[1], c[4], 0.5 * c[5]}, {0.5 * c[2], 0.5 * c[5], c[7]}};
     const Vec3 linear = {c[3], c[6], c[8]};
-    Vec3 m = linear_direction(&solid->to_object, vec3_sub(frame->centre, solid->centre)), rows[3], along[3];
+    Vec3 m = linear_direction(&primitive->to_object, vec3_sub(frame->centre, primitive->centre)), rows[3], along[3];
     for (int i = 0; i < 3; i++) {
         const double *row = frame->to_world.m[i];
-        rows[i] = linear_direction(&solid->to_object, vec3(row[0], row[1], row[2]));
+        rows[i] = linear_direction(&primitive->to_object, vec3(row[0], row[1], row[2]));
         along[i] = rows_direction(s, rows[i]);
     }
     Quadric q = {.constant = vec3_dot(m, rows_direction(s, m)) + vec3_dot(linear, m) + c[9]};
@@ -190,12 +191,13 @@ static Quadric quadric_in(const Solid *solid, const Frame *frame)
     return q;
 }
 
-static void solid_contract(const Solid *solid, const Bounds *surface, const Frame *frame, Bounds *box)
+static void primitive_contract(const PreparedPrimitive *primitive, const Bounds *surface, const Frame *frame,
+                               Bounds *box)
 {
-    bool is_inverse = solid->flags & PART_INVERSE;
-    if (solid->kind == PART_PLANE) {
-        Vec3 normal = is_inverse ? vec3_neg(solid->data[0]) : solid->data[0];
-        double distance = is_inverse ? -solid->data[1].x : solid->data[1].x, n[3];
+    bool is_inverse = primitive->flags & PRIMITIVE_INVERSE;
+    if (primitive->kind == PRIMITIVE_PLANE) {
+        Vec3 normal = is_inverse ? vec3_neg(primitive->data[0]) : primitive->data[0];
+        double distance = is_inverse ? -primitive->data[1].x : primitive->data[1].x, n[3];
         for (int i = 0; i < 3; i++) {
             const double *row = frame->to_world.m[i];
             n[i] = vec3_dot(normal, vec3(row[0], row[1], row[2]));
@@ -204,8 +206,8 @@ static void solid_contract(const Solid *solid, const Bounds *surface, const Fram
     } else if (!is_inverse && bounds_are_finite(*surface)) {
         Vec3 moved = vec3_neg(linear_direction(&frame->to_frame, frame->centre));
         *box = bounds_meet(*box, box_through(&frame->to_frame, moved, surface));
-    } else if (!is_inverse && is_quadric(solid)) {
-        Quadric q = quadric_in(solid, frame);
+    } else if (!is_inverse && is_quadric(primitive)) {
+        Quadric q = quadric_in(primitive, frame);
         quadric_contract(&q, box);
     }
 }
@@ -229,11 +231,11 @@ static void contract_nodes(const ShapeTable *table, const CsgTree *csg, const Bo
         inner[i] = i == first ? inner[i] : bounds_meet(inner[i], inner[node->parent]);
         next[i] = node->op == NODE_UNION || node->op == NODE_MERGE ? BOUNDS_NONE : inner[i];
     }
-    for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count; i++) {
-        const Solid *solid = &table->solids[i];
-        Bounds box = inner[solid->node];
-        solid_contract(solid, &surfaces[i], frame, &box);
-        take(&table->nodes[solid->node], &next[solid->node], box);
+    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count; i++) {
+        const PreparedPrimitive *primitive = &table->primitives[i];
+        Bounds box = inner[primitive->node];
+        primitive_contract(primitive, &surfaces[i], frame, &box);
+        take(&table->nodes[primitive->node], &next[primitive->node], box);
     }
     for (uint32_t i = end; i-- > first;) {
         const TreeNode *node = &table->nodes[i];
@@ -272,10 +274,11 @@ Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
     Frame frame = {vec3(0.0, 0.0, 0.0), same, same};
     measure_in(table, csg, surfaces, &frame, inner, next, &bounds);
     int tried = 0;
-    for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count && tried < FRAMES_MOST; i++) {
-        const Solid *solid = &table->solids[i];
-        if (!bounds_are_finite(bounds) && is_quadric(solid) && !bounds_are_finite(surfaces[i])) {
-            frame = (Frame){solid->centre, solid->to_object, solid->to_world};
+    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count && tried < FRAMES_MOST;
+         i++) {
+        const PreparedPrimitive *primitive = &table->primitives[i];
+        if (!bounds_are_finite(bounds) && is_quadric(primitive) && !bounds_are_finite(surfaces[i])) {
+            frame = (Frame){primitive->centre, primitive->to_object, primitive->to_world};
             measure_in(table, csg, surfaces, &frame, inner, next, &bounds);
             tried++;
         }

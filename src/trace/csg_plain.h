@@ -15,14 +15,14 @@ typedef struct PlainEnds {
 
 static bool plain_is_inverse(const CsgTraversal *p, uint32_t index)
 {
-    return traversal_solid(p, index)->flags & PART_INVERSE;
+    return traversal_primitive(p, index)->flags & PRIMITIVE_INVERSE;
 }
 
 // The crossing at which the ray comes out of all that it starts in.
 static Crossing *plain_first_out(const CsgTraversal *p, const PlainEnds *ends)
 {
     Crossing *first = NULL;
-    for (uint32_t i = 0; i < p->csg->solid_count; i++) {
+    for (uint32_t i = 0; i < p->csg->primitive_count; i++) {
         Crossing *out = plain_is_inverse(p, i) ? ends->enter[i] : ends->leave[i];
         first = out && (!first || out->t < first->t) ? out : first;
     }
@@ -34,11 +34,11 @@ static Crossing *plain_first_out(const CsgTraversal *p, const PlainEnds *ends)
 static Crossing *plain_last_in(const CsgTraversal *p, const PlainEnds *ends)
 {
     Crossing *last = NULL;
-    for (uint32_t i = 0; i < p->csg->solid_count; i++) {
+    for (uint32_t i = 0; i < p->csg->primitive_count; i++) {
         Crossing *in = plain_is_inverse(p, i) ? NULL : ends->enter[i];
         last = in && (!last || in->t > last->t) ? in : last;
     }
-    for (uint32_t i = 0; i < p->csg->solid_count;) {
+    for (uint32_t i = 0; i < p->csg->primitive_count;) {
         double from = last ? last->t : 0.0;
         bool is_cut = plain_is_inverse(p, i) && (p->is_inside[i] || (ends->enter[i] && ends->enter[i]->t < from)) &&
                       (!ends->leave[i] || ends->leave[i]->t > from);
@@ -81,7 +81,7 @@ static bool plain_closest(CsgTraversal *p, Foremost *first)
         Crossing *c = &p->crossings[i];
         *(c->leaves ? &ends.leave[c->solid] : &ends.enter[c->solid]) = c;
     }
-    for (uint32_t i = 0; i < p->csg->solid_count; i++) {
+    for (uint32_t i = 0; i < p->csg->primitive_count; i++) {
         starts_inside = starts_inside && p->is_inside[i] != plain_is_inverse(p, i);
     }
     Crossing *seen = starts_inside ? plain_first_out(p, &ends) : plain_last_in(p, &ends);
@@ -90,20 +90,20 @@ static bool plain_closest(CsgTraversal *p, Foremost *first)
         return false;
     }
     if (is_seen) {
-        solid_offer(p->table, p->csg->first_solid + seen->solid, p->ray, seen->t,
-                    crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
+        primitive_offer(p->table, p->csg->first_primitive + seen->solid, p->ray, seen->t,
+                        crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
     }
     return true;
 }
 
-// What convex solids have in common is seen at the last of their ends or, from within, at the first where one is left.
-// Whatever comes before that shows nothing. False where another crossing comes together with it, or where it has no
-// surface: nothing was decided.
+// What convex primitives have in common is seen at the last of their ends or, from within, at the first where one is
+// left. Whatever comes before that shows nothing. False where another crossing comes together with it, or where it has
+// no surface: nothing was decided.
 static bool meet_closest(CsgTraversal *p, Foremost *first)
 {
     bool starts_inside = true;
     Crossing *seen = NULL;
-    for (uint32_t i = 0; i < p->csg->solid_count; i++) {
+    for (uint32_t i = 0; i < p->csg->primitive_count; i++) {
         starts_inside = starts_inside && p->is_inside[i];
     }
     for (uint32_t i = 0; i < p->count; i++) {
@@ -124,8 +124,8 @@ static bool meet_closest(CsgTraversal *p, Foremost *first)
             return false;
         }
     }
-    solid_offer(p->table, p->csg->first_solid + seen->solid, p->ray, seen->t,
-                crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
+    primitive_offer(p->table, p->csg->first_primitive + seen->solid, p->ray, seen->t,
+                    crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
     return true;
 }
 

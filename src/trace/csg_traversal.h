@@ -10,7 +10,7 @@
 
 #include "math/extreme.h"
 #include "scene/mesh_field.h"
-#include "trace/csg_parts.h"
+#include "trace/csg_primitives.h"
 
 typedef struct Crossing {
     double t;
@@ -19,7 +19,7 @@ typedef struct Crossing {
     uint32_t solid; // within the CSG tree
     uint32_t face;  // of a mesh, MESH_NO_FACE else
     uint8_t side;
-    bool leaves;               // the solid's own inside, not minding PART_INVERSE
+    bool leaves;               // the primitive's own inside, not minding PRIMITIVE_INVERSE
     bool is_film;              // changes nothing: of a flat leaf, or within one
     bool has_surface;          // one that can be seen: that of a shape that clips cannot
     bool is_hidden;            // found before the crossings of its group
@@ -39,21 +39,22 @@ typedef struct CsgTraversal {
     double nearest_share;               // none of these that is left is nearer than this share of its t; 0: not known
     double greatest_bound;              // of these; less than 0: not known
     uint32_t *inside;                   // for each node
-    uint64_t *met;                      // a bit for each leaf that was asked, where parts have a tree
+    uint64_t *met;                      // a bit for each leaf that was asked, where primitives have a tree
     double reached;                     // leaves whose boxes are entered behind that have not been asked yet
-    bool *is_inside;        // for each solid, PART_INVERSE minded; while crossings are found: if the ray starts inside
-    Ray *objects;           // the ray in each solid's space, but for planes
+    bool
+        *is_inside; // for each primitive, PRIMITIVE_INVERSE minded; while crossings are found: if the ray starts inside
+    Ray *objects;   // the ray in each primitive's space, but for planes
     Crossing *crossings;    // a heap by t, then by number
-    RayInterval *intervals; // of the solid that is asked
+    RayInterval *intervals; // of the primitive that is asked
     uint32_t count;
     MeshCursor *cursors;                // of its meshes
     bool is_over;                       // nothing more of it can be seen
     double decided_from, decided_until; // where the ray may be inside of all that are needed, as far as it is known
 } CsgTraversal;
 
-static const Solid *traversal_solid(const CsgTraversal *p, uint32_t index)
+static const PreparedPrimitive *traversal_primitive(const CsgTraversal *p, uint32_t index)
 {
-    return &p->table->solids[p->csg->first_solid + index];
+    return &p->table->primitives[p->csg->first_primitive + index];
 }
 
 static bool node_is_inside(const TreeNode *node, uint32_t inside)
@@ -81,7 +82,7 @@ static void traversal_count(CsgTraversal *p, uint32_t at, bool enters)
 static void traversal_toggle(CsgTraversal *p, uint32_t index)
 {
     p->is_inside[index] = !p->is_inside[index];
-    traversal_count(p, traversal_solid(p, index)->node, p->is_inside[index]);
+    traversal_count(p, traversal_primitive(p, index)->node, p->is_inside[index]);
 }
 
 // ---- the heap
@@ -136,8 +137,8 @@ static void heap_push(CsgTraversal *p)
 static double crossing_error(const CsgTraversal *p, Crossing *c)
 {
     if (!c->has_error) {
-        c->error =
-            solid_end_error(traversal_solid(p, c->solid), p->ray, &p->objects[c->solid], c->t, c->side, c->error);
+        c->error = primitive_end_error(traversal_primitive(p, c->solid), p->ray, &p->objects[c->solid], c->t, c->side,
+                                       c->error);
         c->has_error = true;
     }
     return c->error;
@@ -146,7 +147,7 @@ static double crossing_error(const CsgTraversal *p, Crossing *c)
 static double end_bound(const CsgTraversal *p, uint32_t index, double t, uint8_t side)
 {
     double span = p->origin_size + fabs(t) * p->direction_size;
-    return solid_crossing_bound(traversal_solid(p, index), p->ray, &p->objects[index], t, side, span);
+    return primitive_crossing_bound(traversal_primitive(p, index), p->ray, &p->objects[index], t, side, span);
 }
 
 // At least the error; most questions have the same answer for it. May be NaN.
@@ -169,8 +170,8 @@ static bool crossing_is_apart(const CsgTraversal *p, Crossing *a, Crossing *b)
 static void traversal_add(CsgTraversal *p, uint32_t index, double t, double length, uint8_t side, bool leaves,
                           bool is_film)
 {
-    const Solid *solid = traversal_solid(p, index);
-    bool has_surface = !(solid->flags & PART_UNSEEN) && !solid_side_is_unseen(solid, side);
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
+    bool has_surface = !(primitive->flags & PRIMITIVE_UNSEEN) && !primitive_side_is_unseen(primitive, side);
     p->first_surface = has_surface && t < p->first_surface ? t : p->first_surface;
     p->crossings[p->count++] = (Crossing){.t = t,
                                           .error = length,
@@ -184,21 +185,21 @@ static void traversal_add(CsgTraversal *p, uint32_t index, double t, double leng
 
 static void traversal_flat(CsgTraversal *p, uint32_t index, RayStart start)
 {
-    const Solid *solid = traversal_solid(p, index);
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
     Ray *object = &p->objects[index];
     double t;
-    bool is_start = starts_on_part(start) && solid_equal(solid, table_solid(p->table, start.shape));
-    *object = solid_ray(solid, p->ray);
-    if (is_start || !solid_flat_root(solid, object, &t) || !(t > 0.0)) {
+    bool is_start = starts_on_primitive(start) && primitive_equal(primitive, table_primitive(p->table, start.shape));
+    *object = primitive_ray(primitive, p->ray);
+    if (is_start || !primitive_flat_root(primitive, object, &t) || !(t > 0.0)) {
         return;
     }
-    if (!starts_beside(p->table, start, solid) ||
-        t > solid_crossing_error(solid, p->ray, object, t, 0) + p->start_error) {
+    if (!starts_beside(p->table, start, primitive) ||
+        t > primitive_crossing_error(primitive, p->ray, object, t, 0) + p->start_error) {
         traversal_add(p, index, t, (double)INFINITY, 0, false, true);
     }
 }
 
-// The ray is inside of a solid that is needed nowhere but from `enter` to `leave`. Where one of them is left before
+// The ray is inside of a primitive that is needed nowhere but from `enter` to `leave`. Where one of them is left before
 // another is come to, no surface shows: at each crossing one of the two is outside, before it and after it.
 static void traversal_decide(CsgTraversal *p, double enter, double leave)
 {
@@ -212,8 +213,8 @@ static void traversal_decide(CsgTraversal *p, double enter, double leave)
 static bool end_is_at_start(const CsgTraversal *p, uint32_t index, double t, uint8_t side, double length)
 {
     return (isinf(t) || !(t > end_bound(p, index, t, side) + p->start_error)) &&
-           !(t >
-             solid_end_error(traversal_solid(p, index), p->ray, &p->objects[index], t, side, length) + p->start_error);
+           !(t > primitive_end_error(traversal_primitive(p, index), p->ray, &p->objects[index], t, side, length) +
+                     p->start_error);
 }
 
 // Whether the ray has passed an end of an interval. No error is greater than the interval is long.
@@ -227,8 +228,8 @@ RT_ALWAYS_INLINE bool traversal_is_past(const CsgTraversal *p, uint32_t index, d
 RT_ALWAYS_INLINE bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterval *interval, double room,
                                          bool is_start, bool is_beside)
 {
-    bool is_film = solid_is_film(traversal_solid(p, index), interval->leave_side);
-    bool is_inside = (is_start && solid_is_convex(traversal_solid(p, index))) ||
+    bool is_film = primitive_is_film(traversal_primitive(p, index), interval->leave_side);
+    bool is_inside = (is_start && primitive_is_convex(traversal_primitive(p, index))) ||
                      traversal_is_past(p, index, interval->enter, interval->enter_side, room, is_beside);
     if (!is_inside) {
         traversal_add(p, index, interval->enter, room, interval->enter_side, is_film, is_film);
@@ -244,11 +245,11 @@ RT_ALWAYS_INLINE bool traversal_interval(CsgTraversal *p, uint32_t index, const 
 // Whether the ray has passed a crossing with a face.
 static bool face_is_past(const CsgTraversal *p, uint32_t index, double t, uint32_t face)
 {
-    const Solid *solid = traversal_solid(p, index);
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
     bool is_left = p->start.shape != SHAPE_NONE && shape_kind(p->start.shape) == SHAPE_FACE &&
-                   shape_index(p->start.shape) == solid->mesh.first_face + face;
-    return is_left || (starts_beside(p->table, p->start, solid) &&
-                       !(t > mesh_crossing_error(solid, p->ray, &p->objects[index], t, face) + p->start_error));
+                   shape_index(p->start.shape) == primitive->mesh.first_face + face;
+    return is_left || (starts_beside(p->table, p->start, primitive) &&
+                       !(t > mesh_crossing_error(primitive, p->ray, &p->objects[index], t, face) + p->start_error));
 }
 
 // A mesh of a traversal, for mesh_ahead.
@@ -260,18 +261,19 @@ typedef struct TraversalMesh {
 static bool mesh_is_past(const void *client, double t, uint32_t face)
 {
     const TraversalMesh *mesh = client;
-    const Solid *solid = traversal_solid(mesh->p, mesh->index);
-    return !mesh_shows(solid->mesh.table, &mesh->p->objects[mesh->index], t, face) ||
+    const PreparedPrimitive *primitive = traversal_primitive(mesh->p, mesh->index);
+    return !mesh_shows(primitive->mesh.table, &mesh->p->objects[mesh->index], t, face) ||
            face_is_past(mesh->p, mesh->index, t, face);
 }
 
 // The next crossing behind the cursor that the ray has not passed. False: there is none.
 static bool traversal_find_face(CsgTraversal *p, uint32_t index, double *t)
 {
-    const Solid *solid = traversal_solid(p, index);
-    MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
-    while (mesh_next(solid, cursor, t)) {
-        if (mesh_shows(solid->mesh.table, &p->objects[index], *t, cursor->face) && !face_is_past(p, index, *t, cursor->face)) {
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
+    MeshCursor *cursor = &p->cursors[primitive->mesh.cursor];
+    while (mesh_next(primitive, cursor, t)) {
+        if (mesh_shows(primitive->mesh.table, &p->objects[index], *t, cursor->face) &&
+            !face_is_past(p, index, *t, cursor->face)) {
             return true;
         }
     }
@@ -281,9 +283,9 @@ static bool traversal_find_face(CsgTraversal *p, uint32_t index, double *t)
 // A crossing of a mesh with a face, or with a side of a field of heights, where `error` is how far t may be off.
 static void traversal_add_face(CsgTraversal *p, uint32_t index, double t, uint32_t face, double error)
 {
-    const Solid *solid = traversal_solid(p, index);
-    MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
-    bool is_film = solid_is_flat(solid);
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
+    MeshCursor *cursor = &p->cursors[primitive->mesh.cursor];
+    bool is_film = primitive_is_flat(primitive);
     traversal_add(p, index, t, (double)INFINITY, 0, !is_film && cursor->is_inside, is_film);
     Crossing *added = &p->crossings[p->count - 1];
     added->face = face;
@@ -296,7 +298,7 @@ static void traversal_add_face(CsgTraversal *p, uint32_t index, double t, uint32
 static double traversal_side_error(const CsgTraversal *p, uint32_t index, double t, int axis)
 {
     Vec3 normal = vec3(axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0);
-    return solid_plane_error(traversal_solid(p, index), p->ray, &p->objects[index], t, normal);
+    return primitive_plane_error(traversal_primitive(p, index), p->ray, &p->objects[index], t, normal);
 }
 
 // Adds where a ray comes through a side or the water of a field of heights.
@@ -307,9 +309,9 @@ static void traversal_add_side(CsgTraversal *p, uint32_t index, double t, int ax
 
 static void traversal_next_face(CsgTraversal *p, uint32_t index)
 {
-    const Solid *solid = traversal_solid(p, index);
-    MeshCursor *cursor = &p->cursors[solid->mesh.cursor], before = *cursor;
-    bool is_field = solid->mesh.table->mesh->field;
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
+    MeshCursor *cursor = &p->cursors[primitive->mesh.cursor], before = *cursor;
+    bool is_field = primitive->mesh.table->mesh->field;
     double t;
     if (cursor->is_left) {
         return;
@@ -321,7 +323,7 @@ static void traversal_next_face(CsgTraversal *p, uint32_t index)
         traversal_add_side(p, index, before.water, 1);
     } else if (is_found) {
         traversal_add_face(p, index, t, cursor->face,
-                           mesh_crossing_error(solid, p->ray, &p->objects[index], t, cursor->face));
+                           mesh_crossing_error(primitive, p->ray, &p->objects[index], t, cursor->face));
     } else if (is_field) {
         cursor->is_left = true;
         if (cursor->is_inside && !isinf(cursor->leave)) {
@@ -379,14 +381,14 @@ static bool way_begins_below(const MeshField *field, const Ray *object, double e
 
 static bool side_is_past(const CsgTraversal *p, uint32_t index, double t, int axis)
 {
-    return !(t > 0.0) || (starts_beside(p->table, p->start, traversal_solid(p, index)) &&
+    return !(t > 0.0) || (starts_beside(p->table, p->start, traversal_primitive(p, index)) &&
                           !(t > traversal_side_error(p, index, t, axis) + p->start_error));
 }
 
 // Where a ray comes through water on its way; infinite: nowhere, or it has passed that.
 static double field_water(const CsgTraversal *p, uint32_t index, double enter, double leave)
 {
-    const MeshField *field = traversal_solid(p, index)->mesh.table->mesh->field;
+    const MeshField *field = traversal_primitive(p, index)->mesh.table->mesh->field;
     const Ray *object = &p->objects[index];
     double t = (field->water - object->origin.y) / object->direction.y;
     Vec3 point = vec3_add_scaled(object->origin, t, object->direction);
@@ -397,9 +399,9 @@ static double field_water(const CsgTraversal *p, uint32_t index, double enter, d
 // Sets where the ray leaves; whether it starts inside; and adds where it comes inside through a side.
 static void traversal_field_begin(CsgTraversal *p, uint32_t index, MeshAhead *ahead)
 {
-    const Solid *solid = traversal_solid(p, index);
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
     const Ray *object = &p->objects[index];
-    MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
+    MeshCursor *cursor = &p->cursors[primitive->mesh.cursor];
     FieldWay way = field_way(object);
     cursor->leave = way.leave;
     cursor->leave_axis = way.leave_axis;
@@ -414,7 +416,7 @@ static void traversal_field_begin(CsgTraversal *p, uint32_t index, MeshAhead *ah
         *ahead = (MeshAhead){ahead->count + 1, less_of(ahead->first, cursor->water),
                              greater_of(ahead->last, cursor->water)};
     }
-    bool is_below = way_begins_below(solid->mesh.table->mesh->field, object, way.enter, way.leave, ahead);
+    bool is_below = way_begins_below(primitive->mesh.table->mesh->field, object, way.enter, way.leave, ahead);
     p->is_inside[index] = cursor->is_inside = is_entered && is_below;
     if (!is_entered && is_below) {
         traversal_add_side(p, index, way.enter, way.enter_axis);
@@ -426,16 +428,16 @@ static void traversal_field_begin(CsgTraversal *p, uint32_t index, MeshAhead *ah
 // The ray starts inside if the number of crossings that are left is odd.
 static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
 {
-    const Solid *solid = traversal_solid(p, index);
-    MeshCursor *cursor = &p->cursors[solid->mesh.cursor];
-    p->objects[index] = solid_ray(solid, p->ray);
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
+    MeshCursor *cursor = &p->cursors[primitive->mesh.cursor];
+    p->objects[index] = primitive_ray(primitive, p->ray);
     *cursor = (MeshCursor){.face = MESH_NO_FACE};
     mesh_query_make(&cursor->query, &p->objects[index]);
     MeshAhead ahead = {0, 0.0, 0.0};
-    if (!solid_is_flat(solid)) {
-        ahead = mesh_ahead(solid, cursor, mesh_is_past, &(TraversalMesh){p, index});
+    if (!primitive_is_flat(primitive)) {
+        ahead = mesh_ahead(primitive, cursor, mesh_is_past, &(TraversalMesh){p, index});
     }
-    if (solid->mesh.table->mesh->field) {
+    if (primitive->mesh.table->mesh->field) {
         traversal_field_begin(p, index, &ahead);
         return;
     }
@@ -444,29 +446,30 @@ static void traversal_mesh_begin(CsgTraversal *p, uint32_t index)
 }
 
 // Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later.
-RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
+RT_ALWAYS_INLINE void traversal_primitive_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
 {
-    const Solid *solid = traversal_solid(p, index);
-    bool is_start = is_own && table_part(p->table, start.shape) == p->csg->first_solid + index;
-    bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
-    bool inward = start.inward != solid->flips;
+    const PreparedPrimitive *primitive = traversal_primitive(p, index);
+    bool is_start = is_own && table_primitive_index(p->table, start.shape) == p->csg->first_primitive + index;
+    bool is_beside = !is_start && (is_own || starts_beside(p->table, start, primitive));
+    bool inward = start.inward != primitive->flips;
     RayInterval *intervals = p->intervals;
     unsigned count = 0;
     const Ray *object = p->ray;
-    if (solid->kind != PART_PLANE) {
-        p->objects[index] = solid_ray(solid, p->ray);
+    if (primitive->kind != PRIMITIVE_PLANE) {
+        p->objects[index] = primitive_ray(primitive, p->ray);
         object = &p->objects[index];
     }
-    if (solid_is_convex(solid) ? !is_start || inward : !shapes_are_abandoned(p->table)) {
-        SideLeft left = {is_start ? part_side(start.shape) : SIDE_NONE, inward};
-        count = solid_intervals(solid, object, left, intervals);
+    if (primitive_is_convex(primitive) ? !is_start || inward : !shapes_are_abandoned(p->table)) {
+        SideLeft left = {is_start ? primitive_side(start.shape) : SIDE_NONE, inward};
+        count = primitive_intervals(primitive, object, left, intervals);
     }
     bool is_met = false, is_inside = false;
     double enter = (double)INFINITY, leave = 0.0; // of all intervals, which films among them leave out of order
     for (unsigned i = 0; i < count; i++) {
         const RayInterval *interval = &intervals[i];
-        double room = solid_is_convex(solid) ? interval->leave - interval->enter : interval_room(intervals, count, i);
-        if ((solid->is_needed && interval->leave < p->decided_from) || // whether it is past or not
+        double room =
+            primitive_is_convex(primitive) ? interval->leave - interval->enter : interval_room(intervals, count, i);
+        if ((primitive->is_needed && interval->leave < p->decided_from) || // whether it is past or not
             traversal_is_past(p, index, interval->leave, interval->leave_side, room, is_beside)) {
             continue;
         }
@@ -477,10 +480,10 @@ RT_ALWAYS_INLINE void traversal_solid_begin(CsgTraversal *p, uint32_t index, Ray
         is_met = true;
     }
     p->is_inside[index] = is_inside;
-    if (solid->is_needed && is_met) {
+    if (primitive->is_needed && is_met) {
         traversal_decide(p, enter, leave);
     }
-    p->is_over = p->is_over || (solid->is_needed && !is_met);
+    p->is_over = p->is_over || (primitive->is_needed && !is_met);
 }
 
 #endif

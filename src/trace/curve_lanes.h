@@ -17,7 +17,7 @@
 enum { CURVE_STEPS_MOST = 14 };
 
 typedef struct CurveLanes {
-    PartKind kind; // a constant of the caller
+    PrimitiveKind kind; // a constant of the caller
     LineLanes line;
     TorusLanes torus;
     QuarticLanes quartic;
@@ -25,7 +25,7 @@ typedef struct CurveLanes {
 
 RT_ALWAYS_INLINE LinePlace curve_lanes_at(const CurveLanes *curve, Doubles s)
 {
-    return curve->kind == PART_TORUS ? torus_lanes_at(&curve->torus, s) : quartic_lanes_at(&curve->quartic, s);
+    return curve->kind == PRIMITIVE_TORUS ? torus_lanes_at(&curve->torus, s) : quartic_lanes_at(&curve->quartic, s);
 }
 
 // Where Newton's steps of some lines are: which take part yet, and which have come to a root, past their piece without
@@ -76,19 +76,19 @@ typedef struct CurveFirst {
     Doubles root, along;
 } CurveFirst;
 
-// `starts`: all start on the solid, which is a curve, and leave it. False when all of `asked` are missed; nothing else
-// is set then.
-RT_ALWAYS_INLINE bool curve_lanes_first(const Solid *solid, PartKind kind, bool starts, const Doubles f[3],
-                                        const Doubles d[3], unsigned asked, CurveFirst *found)
+// `starts`: all start on the primitive, which is a curve, and leave it. False when all of `asked` are missed; nothing
+// else is set then.
+RT_ALWAYS_INLINE bool curve_lanes_first(const PreparedPrimitive *primitive, PrimitiveKind kind, bool starts,
+                                        const Doubles f[3], const Doubles d[3], unsigned asked, CurveFirst *found)
 {
     CurveLanes curve;
     LineLanes *line = &curve.line;
     const DoublesMask none = {0};
     curve.kind = kind;
-    if (kind == PART_TORUS) {
-        torus_lanes_set(solid, f, d, &curve.torus, line);
+    if (kind == PRIMITIVE_TORUS) {
+        torus_lanes_set(primitive, f, d, &curve.torus, line);
     } else {
-        quartic_lanes_set(solid, starts, f, d, &curve.quartic, line);
+        quartic_lanes_set(primitive, starts, f, d, &curve.quartic, line);
     }
     DoublesMask is_near = (line->is_near & ~(line->high < line->start - line->unit)) | ~line->is_told;
     if (!(asked & doubles_mask_bits(is_near))) {
@@ -119,7 +119,7 @@ RT_ALWAYS_INLINE bool curve_lanes_first(const Solid *solid, PartKind kind, bool 
     if (!found->possible) {
         return false;
     }
-    DoublesMask is_root = kind == PART_TORUS
+    DoublesMask is_root = kind == PRIMITIVE_TORUS
                               ? torus_lanes_refine(&curve.torus, line, f, d, steps.s, &found->root, &found->along)
                               : quartic_lanes_refine(&curve.quartic, line, f, steps.s, &found->root, &found->along);
     found->certain = doubles_mask_bits(steps.found & is_root);

@@ -11,20 +11,20 @@
 
 uint32_t extent_count(const Geometry *g)
 {
-    return g->spheres.block_count * SPHERE_BLOCK + g->shapes.solid_count;
+    return g->spheres.block_count * SPHERE_BLOCK + g->shapes.primitive_count;
 }
 
-static bool solid_extent_of(const Solid *solid, Extent *extent)
+static bool primitive_extent_of(const PreparedPrimitive *primitive, Extent *extent)
 {
     Vec3 axes[3], middle = {0.0, 0.0, 0.0};
-    if (solid_is_endless(solid) || solid->composite != NODE_NONE || (solid->flags & PART_INVERSE) ||
-        (solid->hidden & HIDDEN_CAMERA) || solid_is_mesh(solid)) {
+    if (prepared_is_endless(primitive) || primitive->composite != NODE_NONE || (primitive->flags & PRIMITIVE_INVERSE) ||
+        (primitive->hidden & HIDDEN_CAMERA) || primitive_is_mesh(primitive)) {
         return false;
     }
-    solid_classes[solid->kind].axes(solid, axes, &middle);
-    extent->centre = vec3_add(solid->centre, linear_direction(&solid->to_world, middle));
+    prepared_classes[primitive->kind].axes(primitive, axes, &middle);
+    extent->centre = vec3_add(primitive->centre, linear_direction(&primitive->to_world, middle));
     for (int i = 0; i < 3; i++) {
-        extent->axes[i] = linear_direction(&solid->to_world, axes[i]);
+        extent->axes[i] = linear_direction(&primitive->to_world, axes[i]);
     }
     return true;
 }
@@ -34,9 +34,9 @@ bool extent_get(const Geometry *g, uint32_t i, Extent *extent)
     uint32_t slots = g->spheres.block_count * SPHERE_BLOCK;
     if (i >= slots) {
         extent->is_ball = false;
-        extent->shape = shape_id(SHAPE_PART, (i - slots) << PART_SIDE_BITS);
-        extent->material = g->shapes.solids[i - slots].material;
-        return solid_extent_of(&g->shapes.solids[i - slots], extent);
+        extent->shape = shape_id(SHAPE_PRIMITIVE, (i - slots) << PRIMITIVE_SIDE_BITS);
+        extent->material = g->shapes.primitives[i - slots].material;
+        return primitive_extent_of(&g->shapes.primitives[i - slots], extent);
     }
     SphereData ball = sphere_table_ball(&g->spheres, i);
     double radius = sqrt(ball.radius_squared);
@@ -50,8 +50,9 @@ bool extent_get(const Geometry *g, uint32_t i, Extent *extent)
 
 uint32_t extent_place(const Geometry *g, ShapeId shape)
 {
-    bool is_part = shape_is_on_part(shape);
-    return is_part ? g->spheres.block_count * SPHERE_BLOCK + table_part(&g->shapes, shape) : shape_index(shape);
+    bool is_part = shape_is_on_primitive(shape);
+    return is_part ? g->spheres.block_count * SPHERE_BLOCK + table_primitive_index(&g->shapes, shape)
+                   : shape_index(shape);
 }
 
 void extent_of(const Geometry *g, ShapeId shape, Extent *extent)
@@ -67,17 +68,17 @@ bool extent_is_crossed(const Geometry *g, ShapeId shape, Ray ray)
         return vec3_length_squared(vec3_cross(offset, ray.direction)) <= ball.radius_squared &&
                vec3_dot(offset, ray.direction) > 0.0;
     }
-    const Solid *solid = table_solid(&g->shapes, shape);
-    Ray object = solid_ray(solid, &ray);
+    const PreparedPrimitive *primitive = table_primitive(&g->shapes, shape);
+    Ray object = primitive_ray(primitive, &ray);
     double t;
-    if (solid_is_mesh(solid)) {
-        return mesh_is_crossed(solid, &object);
+    if (primitive_is_mesh(primitive)) {
+        return mesh_is_crossed(primitive, &object);
     }
-    if (solid_is_flat(solid)) {
-        return solid_flat_root(solid, &object, &t) && t > 0.0;
+    if (primitive_is_flat(primitive)) {
+        return primitive_flat_root(primitive, &object, &t) && t > 0.0;
     }
-    RayInterval intervals[solid->interval_most];
-    unsigned count = solid_intervals(solid, &object, LEFT_NONE, intervals);
+    RayInterval intervals[primitive->interval_most];
+    unsigned count = primitive_intervals(primitive, &object, LEFT_NONE, intervals);
     return count > 0 && intervals[count - 1].leave > 0.0;
 }
 
@@ -103,8 +104,8 @@ bool extent_is_dark(const Geometry *g, ShapeId shape, const Vec3 *normal, Ray ra
 
 static bool is_same(const Geometry *g, ShapeId a, ShapeId b)
 {
-    bool is_part = shape_is_on_part(a) && shape_is_on_part(b);
-    return is_part ? table_part(&g->shapes, a) == table_part(&g->shapes, b) : a == b;
+    bool is_part = shape_is_on_primitive(a) && shape_is_on_primitive(b);
+    return is_part ? table_primitive_index(&g->shapes, a) == table_primitive_index(&g->shapes, b) : a == b;
 }
 
 bool extent_first(const Geometry *g, Ray ray, Hit *hit, Surface *surface)

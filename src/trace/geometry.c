@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "trace/elsewhere.h"
 #include "trace/kept.h"
 
@@ -36,9 +36,9 @@ static bool planes_init(Geometry *geometry, const Scene *scene, int exponent)
 
 // ---- balls that equal spheres
 
-static SphereData solid_ball(const Solid *solid)
+static SphereData primitive_ball(const PreparedPrimitive *primitive)
 {
-    return sphere_data_make(solid->centre, fabs(solid->to_world.m[0][0]));
+    return sphere_data_make(primitive->centre, fabs(primitive->to_world.m[0][0]));
 }
 
 static int place_compare(Vec3 a, Vec3 b)
@@ -46,13 +46,13 @@ static int place_compare(Vec3 a, Vec3 b)
     return a.x != b.x ? (a.x > b.x) - (a.x < b.x) : a.y != b.y ? (a.y > b.y) - (a.y < b.y) : (a.z > b.z) - (a.z < b.z);
 }
 
-static int solid_compare(const void *a, const void *b)
+static int primitive_compare(const void *a, const void *b)
 {
-    return place_compare((*(Solid *const *)a)->centre, (*(Solid *const *)b)->centre);
+    return place_compare((*(PreparedPrimitive *const *)a)->centre, (*(PreparedPrimitive *const *)b)->centre);
 }
 
 // The first of `balls`, in order of their centres, that is not before a place.
-static size_t first_from(Solid *const *balls, size_t count, Vec3 place)
+static size_t first_from(PreparedPrimitive *const *balls, size_t count, Vec3 place)
 {
     size_t low = 0;
     while (count > 0) {
@@ -64,28 +64,28 @@ static size_t first_from(Solid *const *balls, size_t count, Vec3 place)
     return low;
 }
 
-// Tells balls among the parts which sphere they equal, so that the two are one surface. Every sphere is looked up among
-// the balls, which are few.
+// Tells balls among the primitives which sphere they equal, so that the two are one surface. Every sphere is looked up
+// among the balls, which are few.
 static bool coincident_init(Geometry *geometry)
 {
     ShapeTable *shapes = &geometry->shapes;
     const SphereTable *spheres = &geometry->spheres;
-    Solid **balls = malloc((shapes->solid_count + 1) * sizeof *balls);
+    PreparedPrimitive **balls = malloc((shapes->primitive_count + 1) * sizeof *balls);
     size_t count = 0;
-    for (uint32_t i = 0; balls && i < shapes->solid_count; i++) {
-        Solid *solid = &shapes->solids[i];
-        solid->twin = SLOT_NONE;
-        if (solid->kind == PART_SPHERE && part_map_is_round(solid->to_world.m)) {
-            balls[count++] = solid;
+    for (uint32_t i = 0; balls && i < shapes->primitive_count; i++) {
+        PreparedPrimitive *primitive = &shapes->primitives[i];
+        primitive->twin = SLOT_NONE;
+        if (primitive->kind == PRIMITIVE_SPHERE && primitive_map_is_round(primitive->to_world.m)) {
+            balls[count++] = primitive;
         }
     }
     if (count > 0) {
-        qsort(balls, count, sizeof(Solid *), solid_compare);
+        qsort(balls, count, sizeof(PreparedPrimitive *), primitive_compare);
     }
     for (uint32_t slot = 0; count > 0 && slot < spheres->block_count * SPHERE_BLOCK; slot++) {
         SphereData sphere = sphere_table_ball(spheres, slot);
         for (size_t i = first_from(balls, count, sphere.centre); i < count; i++) {
-            SphereData ball = solid_ball(balls[i]);
+            SphereData ball = primitive_ball(balls[i]);
             if (!vec3_equal(ball.centre, sphere.centre)) {
                 break;
             }
@@ -114,7 +114,7 @@ static void find_features(Geometry *geometry)
     uint32_t loose = geometry->spheres.loose_count;
     geometry->features = geometry->spheres.count > loose ? TRACE_SPHERE_BVH : loose > 0 ? TRACE_SPHERES : 0u;
     geometry->features |= geometry->plane_count > 0 ? (unsigned)TRACE_PLANES : 0;
-    geometry->features |= geometry->shapes.solid_count > 0 ? (unsigned)TRACE_PARTS : 0;
+    geometry->features |= geometry->shapes.primitive_count > 0 ? (unsigned)TRACE_PRIMITIVES : 0;
 }
 
 Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOptions *options)
@@ -212,7 +212,7 @@ static bool kept_take_others(GeometryKept *kept, Follow *follow)
             return false;
         }
     }
-    if ((follow->is_elsewhere && kept->parts > 0) || kept->parts != scene->parts.count) {
+    if ((follow->is_elsewhere && kept->parts > 0) || kept->parts != scene->primitives.count) {
         follow->is_built = follow->is_changed = true;
         shapes_fini(&geometry->shapes);
         return shapes_init(&geometry->shapes, scene, follow->exponent, follow->threads, follow->cancel);
@@ -252,7 +252,7 @@ Geometry *geometry_kept_take(GeometryKept *kept, const Scene *scene, int exponen
     kept->exponent = exponent;
     kept->spheres = scene->spheres.count;
     kept->planes = scene->planes.count;
-    kept->parts = scene->parts.count;
+    kept->parts = scene->primitives.count;
     kept->changed = (SphereRange){0, 0};
     kept->is_elsewhere = false;
     return kept->geometry;
@@ -291,21 +291,22 @@ const char *geometry_isa_name(const Geometry *geometry)
 
 bool geometry_is_flat(const Geometry *geometry, ShapeId shape)
 {
-    return shape_is_on_part(shape) && solid_is_flat(table_solid(&geometry->shapes, shape));
+    return shape_is_on_primitive(shape) && primitive_is_flat(table_primitive(&geometry->shapes, shape));
 }
 
 bool geometry_flat_normal(const Geometry *geometry, ShapeId shape, Vec3 *normal)
 {
     bool is_flat = geometry_is_flat(geometry, shape);
     if (is_flat) {
-        const Solid *solid = table_solid(&geometry->shapes, shape);
-        Vec3 own = solid_is_mesh(solid) ? mesh_plane(solid, shape) : vec3(0.0, 0.0, 1.0);
-        *normal = vec3_normalize(linear_normal(&solid->to_object, own));
+        const PreparedPrimitive *primitive = table_primitive(&geometry->shapes, shape);
+        Vec3 own = primitive_is_mesh(primitive) ? mesh_plane(primitive, shape) : vec3(0.0, 0.0, 1.0);
+        *normal = vec3_normalize(linear_normal(&primitive->to_object, own));
     }
     return is_flat;
 }
 
 bool geometry_is_convex(const Geometry *geometry, ShapeId shape)
 {
-    return shape == SHAPE_NONE || !shape_is_on_part(shape) || solid_is_convex(table_solid(&geometry->shapes, shape));
+    return shape == SHAPE_NONE || !shape_is_on_primitive(shape) ||
+           primitive_is_convex(table_primitive(&geometry->shapes, shape));
 }

@@ -44,9 +44,9 @@ static bool ball_interval(const Isosurface *surface, const Ray *ray, uint8_t lef
 }
 
 // What of the line is in the container; a ray that leaves it through its own side is not in it any more.
-static bool container_interval(const Solid *solid, const Ray *ray, SideLeft left, RayInterval *interval)
+static bool container_interval(const PreparedPrimitive *primitive, const Ray *ray, SideLeft left, RayInterval *interval)
 {
-    const Isosurface *surface = isosurface_of(solid->isosurface.list);
+    const Isosurface *surface = isosurface_of(primitive->isosurface.list);
     bool is_on = left.side >= ISOSURFACE_BALL && left.side != SIDE_NONE;
     if (is_on && !left.inward) {
         return false;
@@ -55,7 +55,8 @@ static bool container_interval(const Solid *solid, const Ray *ray, SideLeft left
         return ball_interval(surface, ray, left.side, interval);
     }
     uint8_t side = is_on ? (uint8_t)(left.side - ISOSURFACE_BOX) : SIDE_NONE;
-    if (!box_interval(solid->isosurface.low, solid->isosurface.high, ray->origin, ray->direction, side, interval)) {
+    if (!box_interval(primitive->isosurface.low, primitive->isosurface.high, ray->origin, ray->direction, side,
+                      interval)) {
         return false;
     }
     interval->enter_side = (uint8_t)(interval->enter_side + ISOSURFACE_BOX);
@@ -127,22 +128,23 @@ static bool is_abandoned(const void *client)
     return trace_is_abandoned(client);
 }
 
-unsigned isosurface_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+unsigned isosurface_intervals(const PreparedPrimitive *primitive, const Ray *object, SideLeft left,
+                              RayInterval *intervals)
 {
-    Walk walk = {.surface = isosurface_of(solid->isosurface.list), .open = INTERVAL_ALL, .intervals = intervals};
-    if (!container_interval(solid, object, left, &walk.container) || !(walk.container.leave > 0.0)) {
+    Walk walk = {.surface = isosurface_of(primitive->isosurface.list), .open = INTERVAL_ALL, .intervals = intervals};
+    if (!container_interval(primitive, object, left, &walk.container) || !(walk.container.leave > 0.0)) {
         return 0;
     }
-    const IsosurfaceWorld *world = solid->isosurface.world;
-    double length = world->scale * vec3_length(linear_direction(&solid->to_world, object->direction));
-    walk.line = isosurface_line(solid->isosurface.list, solid->isosurface.host, *object, length);
+    const IsosurfaceWorld *world = primitive->isosurface.world;
+    double length = world->scale * vec3_length(linear_direction(&primitive->to_world, object->direction));
+    walk.line = isosurface_line(primitive->isosurface.list, primitive->isosurface.host, *object, length);
     walk.line.is_over = world->abandon ? is_abandoned : NULL;
     walk.line.client = world->abandon;
     walk.is_within = !(walk.container.enter > 0.0);
     if (!walk.is_within && walk.container.leave - walk.container.enter < walk.line.step) {
         return 0; // as in POV-Ray
     }
-    walk.is_alone = solid->node == NODE_NONE;
+    walk.is_alone = primitive->node == NODE_NONE;
     walk_roots(&walk);
     return walk.count;
 }
@@ -150,10 +152,10 @@ unsigned isosurface_intervals(const Solid *solid, const Ray *object, SideLeft le
 // ---- surfaces
 
 // As POV-Ray has it: by what the function is `accuracy` further along each axis.
-static Vec3 difference(const Solid *solid, Vec3 p)
+static Vec3 difference(const PreparedPrimitive *primitive, Vec3 p)
 {
-    const double *list = solid->isosurface.list;
-    const FormulaHost *host = solid->isosurface.host;
+    const double *list = primitive->isosurface.list;
+    const FormulaHost *host = primitive->isosurface.host;
     double step = isosurface_of(list)->accuracy, f = isosurface_value(list, host, p);
     Vec3 n = {isosurface_value(list, host, vec3(p.x + step, p.y, p.z)) - f,
               isosurface_value(list, host, vec3(p.x, p.y + step, p.z)) - f,
@@ -163,11 +165,11 @@ static Vec3 difference(const Solid *solid, Vec3 p)
                                           : vec3(1.0, 0.0, 0.0);
 }
 
-Vec3 isosurface_normal(const Solid *solid, Vec3 point, uint8_t side)
+Vec3 isosurface_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side)
 {
-    const Isosurface *surface = isosurface_of(solid->isosurface.list);
+    const Isosurface *surface = isosurface_of(primitive->isosurface.list);
     if (side == ISOSURFACE_SIDE) {
-        return difference(solid, point);
+        return difference(primitive, point);
     }
     if (side == ISOSURFACE_UNSEEN) {
         return vec3(1.0, 0.0, 0.0);
@@ -178,9 +180,9 @@ Vec3 isosurface_normal(const Solid *solid, Vec3 point, uint8_t side)
     return box_normal((uint8_t)(side - ISOSURFACE_BOX));
 }
 
-Vec3 isosurface_point(const Solid *solid, Vec3 point, uint8_t side)
+Vec3 isosurface_point(const PreparedPrimitive *primitive, Vec3 point, uint8_t side)
 {
-    const Isosurface *surface = isosurface_of(solid->isosurface.list);
+    const Isosurface *surface = isosurface_of(primitive->isosurface.list);
     if (side < ISOSURFACE_BALL) {
         return point;
     }
@@ -188,5 +190,5 @@ Vec3 isosurface_point(const Solid *solid, Vec3 point, uint8_t side)
         Vec3 middle = {surface->low[0], surface->low[1], surface->low[2]};
         return vec3_add_scaled(middle, surface->high[0], vec3_normalize(vec3_sub(point, middle)));
     }
-    return box_point(solid->isosurface.low, solid->isosurface.high, point, (uint8_t)(side - ISOSURFACE_BOX));
+    return box_point(primitive->isosurface.low, primitive->isosurface.high, point, (uint8_t)(side - ISOSURFACE_BOX));
 }

@@ -5,7 +5,7 @@
 #define TRACE_ISOSURFACE_H
 
 #include "scene/isosurface.h"
-#include "trace/solid.h"
+#include "trace/prepared_primitive.h"
 
 // Its sides.
 enum {
@@ -15,9 +15,10 @@ enum {
     ISOSURFACE_BOX = ISOSURFACE_BALL, // or a box, whose six sides follow
 };
 
-// As SolidClass has them. Of an isosurface that stands alone nothing is known behind the first surface that is seen.
-unsigned isosurface_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals);
-Vec3 isosurface_normal(const Solid *solid, Vec3 point, uint8_t side);
-Vec3 isosurface_point(const Solid *solid, Vec3 point, uint8_t side);
+// As PreparedClass has them. Of an isosurface that stands alone nothing is known behind the first surface that is seen.
+unsigned isosurface_intervals(const PreparedPrimitive *primitive, const Ray *object, SideLeft left,
+                              RayInterval *intervals);
+Vec3 isosurface_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side);
+Vec3 isosurface_point(const PreparedPrimitive *primitive, Vec3 point, uint8_t side);
 
 #endif

@@ -78,10 +78,10 @@ static void step_on(Walk *walk, double at, double to)
     }
 }
 
-unsigned julia_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+unsigned julia_intervals(const PreparedPrimitive *primitive, const Ray *object, SideLeft left, RayInterval *intervals)
 {
-    const IsosurfaceWorld *world = solid->isosurface.world;
-    Walk walk = {.julia = julia_of(solid->isosurface.list),
+    const IsosurfaceWorld *world = primitive->isosurface.world;
+    Walk walk = {.julia = julia_of(primitive->isosurface.list),
                  .abandon = world ? world->abandon : NULL,
                  .ray = *object,
                  .length = vec3_length(object->direction),
@@ -94,7 +94,7 @@ unsigned julia_intervals(const Solid *solid, const Ray *object, SideLeft left, R
     double at = from > 0.0 ? from : 0.0;
     bool is_start = left.side != SIDE_NONE;
     bool begins_inside = is_start ? left.inward : julia_holds(walk.julia, ray_at(*object, at), &reach);
-    walk.is_alone = solid->node == NODE_NONE;
+    walk.is_alone = primitive->node == NODE_NONE;
     if (begins_inside && from > 0.0) {
         cross(&walk, from);
     } else {
@@ -111,8 +111,8 @@ unsigned julia_intervals(const Solid *solid, const Ray *object, SideLeft left, R
     return walk.count;
 }
 
-Vec3 julia_normal(const Solid *solid, Vec3 point, uint8_t side)
+Vec3 julia_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side)
 {
     (void)side;
-    return julia_gradient(julia_of(solid->isosurface.list), point);
+    return julia_gradient(julia_of(primitive->isosurface.list), point);
 }

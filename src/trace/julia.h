@@ -5,10 +5,10 @@
 #define TRACE_JULIA_H
 
 #include "scene/julia.h"
-#include "trace/solid.h"
+#include "trace/prepared_primitive.h"
 
-// As SolidClass has them. Of a fractal that stands alone nothing is known behind the first crossing.
-unsigned julia_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals);
-Vec3 julia_normal(const Solid *solid, Vec3 point, uint8_t side);
+// As PreparedClass has them. Of a fractal that stands alone nothing is known behind the first crossing.
+unsigned julia_intervals(const PreparedPrimitive *primitive, const Ray *object, SideLeft left, RayInterval *intervals);
+Vec3 julia_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side);
 
 #endif

@@ -5,7 +5,7 @@
 #define TRACE_LINE_LANES_H
 
 #include "trace/simd.h"
-#include "trace/solid.h"
+#include "trace/prepared_primitive.h"
 
 // By s: t = t_base + s step. All of the solid that a line may meet lies between `low` and `high`.
 typedef struct LineLanes {

@@ -64,9 +64,11 @@ size_t mesh_table_bytes(const MeshTable *table)
 
 // ---- at a hit
 
-double mesh_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint32_t face)
+double mesh_crossing_error(const PreparedPrimitive *primitive, const Ray *ray, const Ray *object, double t,
+                           uint32_t face)
 {
-    double error = solid_plane_error(solid, ray, object, t, mesh_face_normal(solid->mesh.table->mesh, face));
+    double error =
+        primitive_plane_error(primitive, ray, object, t, mesh_face_normal(primitive->mesh.table->mesh, face));
     double most = MESH_ERROR_MOST * fabs(t);
     return t == 0.0 || error < most ? error : most;
 }
@@ -92,37 +94,37 @@ static Vec3 face_normal(const Mesh *mesh, uint32_t face, const MeshPoint *at)
     return is_flat ? own : n;
 }
 
-static Vec3 field_normal(const Solid *solid, uint32_t face, Vec3 point)
+static Vec3 field_normal(const PreparedPrimitive *primitive, uint32_t face, Vec3 point)
 {
     Vec3 normals[4], sum = vec3(0.0, 0.0, 0.0);
     double weights[4];
-    int count = mesh_field_normals(solid->mesh.table->mesh->field, face, point, normals, weights);
+    int count = mesh_field_normals(primitive->mesh.table->mesh->field, face, point, normals, weights);
     for (int i = 0; i < count; i++) {
-        sum = vec3_add_scaled(sum, weights[i], vec3_normalize(linear_normal(&solid->to_object, normals[i])));
+        sum = vec3_add_scaled(sum, weights[i], vec3_normalize(linear_normal(&primitive->to_object, normals[i])));
     }
     return vec3_normalize(sum);
 }
 
-void mesh_surface(const Solid *solid, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal)
+void mesh_surface(const PreparedPrimitive *primitive, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal)
 {
-    const Mesh *mesh = solid->mesh.table->mesh;
+    const Mesh *mesh = primitive->mesh.table->mesh;
     MeshQuery query;
     MeshPoint at = {0.0, {1.0, 0.0, 0.0}};
-    Ray object = solid_ray(solid, ray);
+    Ray object = primitive_ray(primitive, ray);
     mesh_query_make(&query, &object);
     (void)mesh_ray_crosses(&query.shear, mesh, face, &at);
     Vec3 own = vec3(0.0, 0.0, 0.0);
     for (int i = 0; i < 3; i++) {
         own = vec3_add_scaled(own, at.weights[i], mesh_corner(mesh, face, i));
     }
-    *point = vec3_add(solid->centre, linear_direction(&solid->to_world, own));
-    *normal = mesh->field ? field_normal(solid, face, own)
-                          : vec3_normalize(linear_normal(&solid->to_object, face_normal(mesh, face, &at)));
+    *point = vec3_add(primitive->centre, linear_direction(&primitive->to_world, own));
+    *normal = mesh->field ? field_normal(primitive, face, own)
+                          : vec3_normalize(linear_normal(&primitive->to_object, face_normal(mesh, face, &at)));
 }
 
-Vec3 mesh_plane(const Solid *solid, uint32_t shape_index)
+Vec3 mesh_plane(const PreparedPrimitive *primitive, uint32_t shape_index)
 {
-    return mesh_face_normal(solid->mesh.table->mesh, shape_index - solid->mesh.first_face);
+    return mesh_face_normal(primitive->mesh.table->mesh, shape_index - primitive->mesh.first_face);
 }
 
 // ---- one crossing after the other
@@ -132,9 +134,9 @@ static bool is_behind(double t, uint32_t face, double other, uint32_t other_face
     return t > other || (t == other && face > other_face);
 }
 
-bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t)
+bool mesh_next(const PreparedPrimitive *primitive, MeshCursor *cursor, double *t)
 {
-    const MeshTable *table = solid->mesh.table;
+    const MeshTable *table = primitive->mesh.table;
     const MeshQuery *query = &cursor->query;
     BvhWalk walk;
     BvhChild leaf;
@@ -164,9 +166,10 @@ bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t)
     return true;
 }
 
-MeshAhead mesh_ahead(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client)
+MeshAhead mesh_ahead(const PreparedPrimitive *primitive, const MeshCursor *cursor, MeshIsPast is_past,
+                     const void *client)
 {
-    const MeshTable *table = solid->mesh.table;
+    const MeshTable *table = primitive->mesh.table;
     const MeshQuery *query = &cursor->query;
     BvhWalk walk;
     BvhChild leaf;
@@ -190,10 +193,10 @@ MeshAhead mesh_ahead(const Solid *solid, const MeshCursor *cursor, MeshIsPast is
     return ahead;
 }
 
-bool mesh_is_crossed(const Solid *solid, const Ray *object)
+bool mesh_is_crossed(const PreparedPrimitive *primitive, const Ray *object)
 {
     MeshCursor cursor = {.face = MESH_NO_FACE};
     double t;
     mesh_query_make(&cursor.query, object);
-    return mesh_next(solid, &cursor, &t);
+    return mesh_next(primitive, &cursor, &t);
 }

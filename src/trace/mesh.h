@@ -1,4 +1,4 @@
-// Meshes made ready for rays: a tree over the faces of each, which all parts that have it share.
+// Meshes made ready for rays: a tree over the faces of each, which all primitives that have it share.
 //
 // A ray is taken into the mesh's own space, where faces are asked by scene/mesh_ray.h. The walk of the tree for
 // pictures is in shapes_walk.h; composites ask for one crossing after the other. A ray that starts on a face leaves
@@ -10,7 +10,7 @@
 
 #include "scene/mesh_ray.h"
 #include "trace/bvh.h"
-#include "trace/solid.h"
+#include "trace/prepared_primitive.h"
 
 struct MeshTable {
     const Mesh *mesh; // not owned
@@ -25,18 +25,19 @@ void mesh_table_free(MeshTable *table);
 size_t mesh_table_bytes(const MeshTable *table);
 
 // How far the t of a crossing with a face may be off by rounding; docs/numerics.md has the bound.
-double mesh_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint32_t face);
+double mesh_crossing_error(const PreparedPrimitive *primitive, const Ray *ray, const Ray *object, double t,
+                           uint32_t face);
 
 // Where the ray hit a face, and the normal that light sees.
-void mesh_surface(const Solid *solid, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal);
+void mesh_surface(const PreparedPrimitive *primitive, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal);
 
-// Along the normal of a face's plane, in the solid's own space; `shape` is of the face.
-Vec3 mesh_plane(const Solid *solid, uint32_t shape_index);
+// Along the normal of a face's plane, in the primitive's own space; `shape` is of the face.
+Vec3 mesh_plane(const PreparedPrimitive *primitive, uint32_t shape_index);
 
-static inline MaterialIndex mesh_material(const Solid *solid, uint32_t face)
+static inline MaterialIndex mesh_material(const PreparedPrimitive *primitive, uint32_t face)
 {
-    const uint32_t *textures = solid->mesh.table->mesh->face_textures;
-    return textures && textures[face] ? solid->mesh.materials[textures[face] - 1] : solid->material;
+    const uint32_t *textures = primitive->mesh.table->mesh->face_textures;
+    return textures && textures[face] ? primitive->mesh.materials[textures[face] - 1] : primitive->material;
 }
 
 // A ray in a mesh's space, of unit length as trees want it: t there is t of the ray times `length`.
@@ -76,7 +77,7 @@ typedef struct MeshCursor {
 } MeshCursor;
 
 // Moves the cursor to the next crossing behind it, by t, then by number; t of the ray. False: there is none.
-bool mesh_next(const Solid *solid, MeshCursor *cursor, double *t);
+bool mesh_next(const PreparedPrimitive *primitive, MeshCursor *cursor, double *t);
 
 // The crossings that are behind the cursor, but those of which `is_past` says that the ray has passed them: how many,
 // and the least and the greatest t of the ray among them.
@@ -85,7 +86,8 @@ typedef struct MeshAhead {
     double first, last;
 } MeshAhead;
 typedef bool (*MeshIsPast)(const void *client, double t, uint32_t face); // t of the ray
-MeshAhead mesh_ahead(const Solid *solid, const MeshCursor *cursor, MeshIsPast is_past, const void *client);
+MeshAhead mesh_ahead(const PreparedPrimitive *primitive, const MeshCursor *cursor, MeshIsPast is_past,
+                     const void *client);
 
 // Of a field of heights: whether its surface is not below the water where a ray in its space crosses a face at t. What
 // is below is none. A face of which no corner is below shows whatever rounding makes of t.
@@ -104,6 +106,6 @@ static inline bool mesh_shows(const MeshTable *table, const Ray *object, double 
 }
 
 // Whether a ray meets any face.
-bool mesh_is_crossed(const Solid *solid, const Ray *object);
+bool mesh_is_crossed(const PreparedPrimitive *primitive, const Ray *object);
 
 #endif

@@ -40,10 +40,10 @@ RT_ALWAYS_INLINE Doubles doubles_inverse_power(Doubles a)
 }
 
 // Where the lines are in the box.
-RT_ALWAYS_INLINE void quartic_lanes_near(const Solid *solid, const Doubles base[3], const Doubles along[3],
-                                         LineLanes *line)
+RT_ALWAYS_INLINE void quartic_lanes_near(const PreparedPrimitive *primitive, const Doubles base[3],
+                                         const Doubles along[3], LineLanes *line)
 {
-    const double *from = &solid->fixed[0].x, *to = &solid->fixed[1].x;
+    const double *from = &primitive->fixed[0].x, *to = &primitive->fixed[1].x;
     line->low = doubles_splat(-(double)INFINITY);
     line->high = doubles_splat((double)INFINITY);
 #pragma GCC unroll 3
@@ -58,11 +58,11 @@ RT_ALWAYS_INLINE void quartic_lanes_near(const Solid *solid, const Doubles base[
 }
 
 // `starts`: all start on the surface, so that their last coefficient is 0.
-RT_ALWAYS_INLINE void quartic_lanes_set(const Solid *solid, bool starts, const Doubles f[3], const Doubles d[3],
-                                        QuarticLanes *quartic, LineLanes *line)
+RT_ALWAYS_INLINE void quartic_lanes_set(const PreparedPrimitive *primitive, bool starts, const Doubles f[3],
+                                        const Doubles d[3], QuarticLanes *quartic, LineLanes *line)
 {
     const Doubles zero = doubles_splat(0.0);
-    const double *list = solid->list.items;
+    const double *list = primitive->list.items;
     Doubles square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], base[3], along[3], *c = quartic->terms;
     Doubles far = doubles_max(doubles_max(doubles_abs(f[0]), doubles_abs(f[1])), doubles_abs(f[2]));
     line->t_base = starts ? zero : -(f[0] * d[0] + f[1] * d[1] + f[2] * d[2]) / square;
@@ -76,13 +76,13 @@ RT_ALWAYS_INLINE void quartic_lanes_set(const Solid *solid, bool starts, const D
     quartic->base = doubles_max(doubles_max(doubles_abs(base[0]), doubles_abs(base[1])), doubles_abs(base[2]));
     quartic->along = doubles_max(doubles_max(doubles_abs(along[0]), doubles_abs(along[1])), doubles_abs(along[2]));
     quartic->moved = starts ? zero : 0x1p-52 * (far + quartic->base);
-    quartic_lanes_near(solid, base, along, line);
+    quartic_lanes_near(primitive, base, along, line);
     line->start = -line->t_base / line->step;
     line->unit = 0x1p-40 * (far + quartic->base);
     // A line's point nearest to 0 is no farther from it than any of the box: no coordinate of the sum of both parts of
     // a place is greater than five times those of the box.
     Doubles sums[3];
-    line->size = greater_of(vec3_max_abs(solid->fixed[0]), vec3_max_abs(solid->fixed[1]));
+    line->size = greater_of(vec3_max_abs(primitive->fixed[0]), vec3_max_abs(primitive->fixed[1]));
     quartic_sizes(quartic->sizes, doubles_splat(5.5 * line->size), sums);
     quartic->room = 2.0 * (QUARTIC_ROUNDING * sums[0] + quartic->moved * sums[1]);
     quartic->slope_room = 2.0 * quartic->along * (QUARTIC_ROUNDING * sums[1] + quartic->moved * sums[2]);

@@ -12,10 +12,11 @@
 
 enum { TRACE_ANY_SPHERES = TRACE_SPHERES | TRACE_SPHERE_BVH };
 
-// Whether there are parts: also where a kernel may have some, a scene without them takes the ways of spheres and planes.
-RT_ALWAYS_INLINE bool query_has_parts(const Geometry *g, unsigned features)
+// Whether there are primitives: also where a kernel may have some, a scene without them takes the ways of spheres and
+// planes.
+RT_ALWAYS_INLINE bool query_has_primitives(const Geometry *g, unsigned features)
 {
-    return (features & TRACE_PARTS) && (g->features & TRACE_PARTS);
+    return (features & TRACE_PRIMITIVES) && (g->features & TRACE_PRIMITIVES);
 }
 
 // The sphere of the table that the ray starts on, and whether it goes into it.
@@ -31,10 +32,10 @@ RT_ALWAYS_INLINE StartSphere query_start_sphere(const Geometry *g, unsigned feat
     StartSphere on = {SLOT_NONE, start.inward, {{0.0, 0.0, 0.0}, (double)NAN}};
     if (start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_SPHERE) {
         on.slot = shape_index(start.shape);
-    } else if ((features & TRACE_PARTS) && starts_on_part(start)) {
-        const Solid *solid = table_solid(&g->shapes, start.shape);
-        on.slot = solid->twin;
-        on.inward = start.inward != solid->flips;
+    } else if ((features & TRACE_PRIMITIVES) && starts_on_primitive(start)) {
+        const PreparedPrimitive *primitive = table_primitive(&g->shapes, start.shape);
+        on.slot = primitive->twin;
+        on.inward = start.inward != primitive->flips;
     }
     if (on.slot != SLOT_NONE) {
         on.ball = sphere_table_ball(&g->spheres, on.slot);
@@ -73,22 +74,22 @@ RT_ALWAYS_INLINE bool query_starts_beside_plane(const Geometry *g, unsigned feat
     if (start.shape == SHAPE_NONE) {
         return false;
     }
-    if ((features & TRACE_PARTS) && starts_on_part(start)) {
-        return table_solid(&g->shapes, start.shape)->family & FAMILY_STRAIGHT;
+    if ((features & TRACE_PRIMITIVES) && starts_on_primitive(start)) {
+        return table_primitive(&g->shapes, start.shape)->family & FAMILY_STRAIGHT;
     }
     return shape_kind(start.shape) == SHAPE_PLANE;
 }
 
-// How far along the ray its start may be off the surface that it starts on, where others may coincide with that. Less than
-// 0 where only parts may, which ask for it when they need it.
+// How far along the ray its start may be off the surface that it starts on, where others may coincide with that. Less
+// than 0 where only primitives may, which ask for it when they need it.
 RT_ALWAYS_INLINE double query_start_error(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start)
 {
     Ray own = {ray->origin, ray->direction};
-    if ((features & TRACE_PARTS) && starts_on_part(start)) {
+    if ((features & TRACE_PRIMITIVES) && starts_on_primitive(start)) {
         return g->plane_count > 0 ? shapes_start_error(&g->shapes, &own, start) : -1.0;
     }
     bool is_plane = (features & TRACE_PLANES) && start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_PLANE;
-    bool may_coincide = query_has_parts(g, features) || g->plane_count > 1;
+    bool may_coincide = query_has_primitives(g, features) || g->plane_count > 1;
     return is_plane && may_coincide ? plane_crossing_error(&g->planes[shape_index(start.shape)].shape, own, 0.0) : 0.0;
 }
 
@@ -107,7 +108,7 @@ RT_ALWAYS_INLINE double query_plane_root(const Geometry *g, uint32_t index, cons
 RT_ALWAYS_INLINE double query_plane_error(const Geometry *g, unsigned features, uint32_t index, const SphereRay *ray,
                                           double t)
 {
-    bool may_coincide = query_has_parts(g, features) || g->plane_count > 1;
+    bool may_coincide = query_has_primitives(g, features) || g->plane_count > 1;
     return may_coincide ? plane_crossing_error(&g->planes[index].shape, (Ray){ray->origin, ray->direction}, t) : 0.0;
 }
 
@@ -137,17 +138,17 @@ RT_ALWAYS_INLINE void query_planes_offer(const Geometry *g, unsigned features, c
 // Brings the nearest of the spheres, which has an order if it is one, up to date with all other shapes.
 RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start, double t_max, uint32_t order, Hit *hit)
 {
-    if (!(features & (TRACE_PLANES | TRACE_PARTS))) {
+    if (!(features & (TRACE_PLANES | TRACE_PRIMITIVES))) {
         return;
     }
-    bool has_parts = query_has_parts(g, features);
+    bool has_primitives = query_has_primitives(g, features);
     double start_error = query_start_error(g, features, ray, start);
     Foremost first = foremost_start(hit, order, t_max);
     for (;;) {
         if (features & TRACE_PLANES) {
             query_planes_offer(g, features, ray, start, start_error, t_max, &first);
         }
-        if (has_parts) {
+        if (has_primitives) {
             g->kernels->shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, start_error, &first);
         }
         if (RT_LIKELY(!first.is_torn)) {
@@ -178,7 +179,7 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
 // The only other shape is a plane, which nothing coincides with.
 RT_ALWAYS_INLINE bool query_has_one_plane(const Geometry *g, unsigned features)
 {
-    return !query_has_parts(g, features) && (features & TRACE_PLANES) && g->plane_count == 1;
+    return !query_has_primitives(g, features) && (features & TRACE_PLANES) && g->plane_count == 1;
 }
 
 // Brings the hit of a tile's ray up to date with all shapes but spheres.
@@ -209,9 +210,9 @@ RT_ALWAYS_INLINE void query_tile_ray_planes(const Geometry *g, const SphereTile 
     tile_hit_set(hits, i, &first.hit);
 }
 
-// Brings the hits of a tile up to date with parts, and planes if there are any. Not inline, for its size.
-static __attribute__((noinline, unused)) void query_tile_parts(const Geometry *g, const SphereTile *tile,
-                                                               TileHits *hits)
+// Brings the hits of a tile up to date with primitives, and planes if there are any. Not inline, for its size.
+static __attribute__((noinline, unused)) void query_tile_primitives(const Geometry *g, const SphereTile *tile,
+                                                                    TileHits *hits)
 {
     TileForemost first; // not cleared as a whole
     TileHits known = *hits;
@@ -246,8 +247,8 @@ static __attribute__((noinline, unused)) void query_tile_parts(const Geometry *g
 // Brings the hits of a tile up to date with all shapes but spheres.
 RT_ALWAYS_INLINE void query_tile_others(const Geometry *g, unsigned features, const SphereTile *tile, TileHits *hits)
 {
-    if (query_has_parts(g, features)) {
-        query_tile_parts(g, tile, hits);
+    if (query_has_primitives(g, features)) {
+        query_tile_primitives(g, tile, hits);
         return;
     }
     uint64_t open = (features & TRACE_PLANES) && g->plane_count > 0 ? UINT64_MAX : 0;
@@ -283,7 +284,7 @@ RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, c
 RT_ALWAYS_INLINE bool geometry_view_passes(const Geometry *g, unsigned features, const TileView *view,
                                            const double u[TILE_RAYS], const double v[TILE_RAYS])
 {
-    bool has_others = query_has_parts(g, features) || ((features & TRACE_PLANES) && g->plane_count > 0);
+    bool has_others = query_has_primitives(g, features) || ((features & TRACE_PLANES) && g->plane_count > 0);
     return (features & TRACE_SPHERES) && !has_others && g->kernels->view_passes(&g->spheres, view, u, v);
 }
 
@@ -300,7 +301,7 @@ RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features
 // Whether there are but few spheres, and a plane at most.
 RT_ALWAYS_INLINE bool query_is_few(const Geometry *g, unsigned features)
 {
-    bool has_others = query_has_parts(g, features) || ((features & TRACE_PLANES) && g->plane_count > 1);
+    bool has_others = query_has_primitives(g, features) || ((features & TRACE_PLANES) && g->plane_count > 1);
     return !has_others && sphere_table_is_few(&g->spheres);
 }
 
@@ -341,17 +342,17 @@ RT_ALWAYS_INLINE bool query_planes_occluded(const Geometry *g, unsigned features
     return false;
 }
 
-// True when anything is met at 0 < t < t_max; `asks_spheres` and `asks_parts` when that may be one. *blocker, a part or a
-// composite, is asked first: nothing but time depends on it.
-RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool asks_spheres, bool asks_parts, Ray ray,
-                                     RayStart start, double t_max, uint32_t *blocker)
+// True when anything is met at 0 < t < t_max; `asks_spheres` and `asks_primitives` when that may be one. *blocker, a
+// primitive or a composite, is asked first: nothing but time depends on it.
+RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool asks_spheres, bool asks_primitives,
+                                     Ray ray, RayStart start, double t_max, uint32_t *blocker)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
     }
     double start_error = query_start_error(g, features, &sphere_ray, start);
-    if ((features & TRACE_PARTS) && *blocker != NO_BLOCKER &&
+    if ((features & TRACE_PRIMITIVES) && *blocker != NO_BLOCKER &&
         g->kernels->shape_blocks(&g->shapes, &ray, start, start_error, t_max, *blocker)) {
         return true;
     }
@@ -361,7 +362,7 @@ RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool 
     if ((features & TRACE_ANY_SPHERES) && asks_spheres && query_spheres_occluded(g, features, &sphere_ray, start, t_max)) {
         return true;
     }
-    return query_has_parts(g, features) && asks_parts &&
+    return query_has_primitives(g, features) && asks_primitives &&
            g->kernels->shapes_occluded(&g->shapes, &ray, start, start_error, t_max, blocker);
 }
 
@@ -395,29 +396,30 @@ RT_ALWAYS_INLINE uint64_t query_plane_before_surfaces(const PlaneShape *shape, c
     return before;
 }
 
-// The surfaces of `asked` that are on no part which equals a sphere.
+// The surfaces of `asked` that are on no primitive which equals a sphere.
 RT_ALWAYS_INLINE uint64_t query_without_twins(const Geometry *g, const TileSurfaces *from, uint64_t asked)
 {
     uint64_t others = asked;
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
-        bool has_twin = shape_is_on_part(from->shape[i]) && table_solid(&g->shapes, from->shape[i])->twin != SLOT_NONE;
+        bool has_twin =
+            shape_is_on_primitive(from->shape[i]) && table_primitive(&g->shapes, from->shape[i])->twin != SLOT_NONE;
         others &= ~((uint64_t)has_twin << i);
     }
     return others;
 }
 
-// The surfaces, of those asked for, that spheres or parts are known to be before. Spheres of those that are `left`, and
-// parts of `left_parts`, are to be asked one by one. Not inline: rare, and large.
-static __attribute__((noinline, unused)) uint64_t query_parts_occluded(const Geometry *g, const TileSurfaces *from,
-                                                                       const SurfaceRays *rays, uint64_t asked,
-                                                                       uint64_t *left, uint64_t *left_parts)
+// The surfaces, of those asked for, that spheres or primitives are known to be before. Spheres of those that are
+// `left`, and parts of `left_primitives`, are to be asked one by one. Not inline: rare, and large.
+static __attribute__((noinline, unused)) uint64_t query_primitives_occluded(const Geometry *g, const TileSurfaces *from,
+                                                                            const SurfaceRays *rays, uint64_t asked,
+                                                                            uint64_t *left, uint64_t *left_primitives)
 {
     uint64_t occluded = 0;
     double start_error[TILE_RAYS];
     *left = 0;
     if (g->spheres.count > 0) {
-        // Where a part equals a sphere, that is passed over: ray by ray.
+        // Where a primitive equals a sphere, that is passed over: ray by ray.
         uint64_t grouped = query_without_twins(g, from, asked);
         occluded = g->kernels->occluded_surfaces(&g->spheres, from, rays, grouped, left);
         *left |= asked & ~grouped;
@@ -427,14 +429,14 @@ static __attribute__((noinline, unused)) uint64_t query_parts_occluded(const Geo
         Vec3 direction = lane_get(rays->towards, (unsigned)i);
         SphereRay ray = sphere_ray_make(tile_surface_point(from, i), direction);
         RayStart start = {from->shape[i], false, HIDDEN_SHADOW};
-        start_error[i] = starts_on_part(start) ? -1.0 : query_start_error(g, TRACE_ALL_FEATURES, &ray, start);
+        start_error[i] = starts_on_primitive(start) ? -1.0 : query_start_error(g, TRACE_ALL_FEATURES, &ray, start);
     }
     uint64_t open = asked & ~occluded;
-    return occluded | g->kernels->shapes_occluded_surfaces(&g->shapes, from, rays, start_error, open, left_parts);
+    return occluded | g->kernels->shapes_occluded_surfaces(&g->shapes, from, rays, start_error, open, left_primitives);
 }
 
-// The surfaces, of those asked for, that planes may be before. Beside parts less may be met of a plane than lies between
-// the ends of a way, never more.
+// The surfaces, of those asked for, that planes may be before. Beside primitives less may be met of a plane than lies
+// between the ends of a way, never more.
 RT_ALWAYS_INLINE uint64_t query_planes_may_occlude(const Geometry *g, unsigned features, const TileSurfaces *from,
                                                    const SurfaceRays *rays, uint64_t asked)
 {
@@ -458,21 +460,21 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
         occluded = query_plane_before_surfaces(&g->planes[0].shape, from, rays, occluded);
         left &= ~occluded;
     }
-    bool has_parts = query_has_parts(g, features);
-    uint64_t left_parts = has_parts ? asked : 0;
-    if (together && !has_parts) {
+    bool has_primitives = query_has_primitives(g, features);
+    uint64_t left_primitives = has_primitives ? asked : 0;
+    if (together && !has_primitives) {
         occluded |= g->kernels->occluded_surfaces(&g->spheres, from, rays, left, &left);
     } else if (together) {
-        occluded |= query_parts_occluded(g, from, rays, asked, &left, &left_parts);
+        occluded |= query_primitives_occluded(g, from, rays, asked, &left, &left_primitives);
     }
     uint64_t left_planes = query_planes_may_occlude(g, features, from, rays, has_one_plane ? 0 : asked);
     uint32_t blocker = NO_BLOCKER;
-    for (uint64_t open = (left | left_parts | left_planes) & ~occluded; open; open &= open - 1) {
+    for (uint64_t open = (left | left_primitives | left_planes) & ~occluded; open; open &= open - 1) {
         int i = __builtin_ctzll(open);
         Vec3 direction = vec3(rays->towards[0][i], rays->towards[1][i], rays->towards[2][i]);
         Ray ray = {tile_surface_point(from, i), direction};
         RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), direction) < 0.0, HIDDEN_SHADOW};
-        occluded |= (uint64_t)query_occluded(g, features, left >> i & 1, left_parts >> i & 1, ray, start,
+        occluded |= (uint64_t)query_occluded(g, features, left >> i & 1, left_primitives >> i & 1, ray, start,
                                              rays->distance[i], &blocker)
                     << i;
     }

@@ -21,7 +21,8 @@ RT_ALWAYS_INLINE bool geometry_is_same(const Geometry *g, ShapeId a, ShapeId b)
     }
     case SHAPE_PLANE: return plane_equal(&g->planes[i].shape, &g->planes[j].shape);
     case SHAPE_FACE: return i == j;
-    default: return solid_equal(&g->shapes.solids[part_index(a)], &g->shapes.solids[part_index(b)]);
+    default:
+        return primitive_equal(&g->shapes.primitives[primitive_index(a)], &g->shapes.primitives[primitive_index(b)]);
     }
 }
 
@@ -42,7 +43,7 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
         return (Surface){plane_point(&plane->shape, ray, hit.t), plane->shape.normal, plane->info.material,
                          plane->info.order, 0};
     }
-    if ((features & TRACE_PARTS) && shape_is_on_part(hit.shape)) {
+    if ((features & TRACE_PRIMITIVES) && shape_is_on_primitive(hit.shape)) {
         return shapes_surface(&g->shapes, &ray, &hit);
     }
     SphereData ball = sphere_table_ball(&g->spheres, index);
@@ -69,8 +70,9 @@ RT_ALWAYS_INLINE MaterialIndex query_surface_end(const Geometry *g, unsigned fea
 {
     ShapeId shape = surfaces->shape[i];
     if (RT_LIKELY(done >> i & 1)) {
-        bool is_part = (features & TRACE_PARTS) && shape_kind(shape) == SHAPE_PART;
-        return is_part ? g->shapes.solids[part_index(shape)].material : g->spheres.info[shape_index(shape)].material;
+        bool is_part = (features & TRACE_PRIMITIVES) && shape_kind(shape) == SHAPE_PRIMITIVE;
+        return is_part ? g->shapes.primitives[primitive_index(shape)].material
+                       : g->spheres.info[shape_index(shape)].material;
     }
     unsigned from = surfaces->ray[i];
     Hit hit = {hits->t[from], hits->shape[from], hits->inside >> from & 1};
@@ -99,11 +101,10 @@ RT_ALWAYS_INLINE void query_secondary_surfaces_end(const Geometry *g, unsigned f
     }
 }
 
-// The same with parts. Not inline, for the stack.
-static __attribute__((noinline, unused)) void query_tile_surfaces_parts(const Geometry *g, uint64_t done,
-                                                                        const SphereTile *tile, const TileHits *hits,
-                                                                        TileSurfaces *surfaces,
-                                                                        MaterialIndex material[TILE_RAYS])
+// The same with primitives. Not inline, for the stack.
+static __attribute__((noinline, unused)) void
+query_tile_surfaces_primitives(const Geometry *g, uint64_t done, const SphereTile *tile, const TileHits *hits,
+                               TileSurfaces *surfaces, MaterialIndex material[TILE_RAYS])
 {
     const double *const origin[3] = {&tile->origin.x, &tile->origin.y, &tile->origin.z};
     done |= g->kernels->shapes_surfaces(&g->shapes, origin, 0, hits, ~done, surfaces);
@@ -111,8 +112,8 @@ static __attribute__((noinline, unused)) void query_tile_surfaces_parts(const Ge
 }
 
 static __attribute__((noinline, unused)) void
-query_secondary_surfaces_parts(const Geometry *g, uint64_t done, const SecondaryRays *rays, const TileHits *hits,
-                               TileSurfaces *surfaces, MaterialIndex material[TILE_RAYS])
+query_secondary_surfaces_primitives(const Geometry *g, uint64_t done, const SecondaryRays *rays, const TileHits *hits,
+                                    TileSurfaces *surfaces, MaterialIndex material[TILE_RAYS])
 {
     const double *const origin[3] = {rays->origin[0], rays->origin[1], rays->origin[2]};
     done |= g->kernels->shapes_surfaces(&g->shapes, origin, 1, hits, ~done, surfaces);
@@ -126,8 +127,8 @@ RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned feature
 {
     query_surfaces_begin(surfaces, hits, wanted);
     uint64_t done = g->kernels->surfaces(&g->spheres, tile, hits, surfaces);
-    if (query_has_parts(g, features)) {
-        query_tile_surfaces_parts(g, done, tile, hits, surfaces, material);
+    if (query_has_primitives(g, features)) {
+        query_tile_surfaces_primitives(g, done, tile, hits, surfaces, material);
     } else {
         query_tile_surfaces_end(g, features, done, tile, hits, surfaces, material);
     }
@@ -140,8 +141,8 @@ RT_ALWAYS_INLINE void geometry_secondary_surfaces(const Geometry *g, unsigned fe
 {
     query_surfaces_begin(surfaces, hits, hits->met);
     uint64_t done = g->kernels->surfaces_secondary(&g->spheres, rays, hits, surfaces);
-    if (query_has_parts(g, features)) {
-        query_secondary_surfaces_parts(g, done, rays, hits, surfaces, material);
+    if (query_has_primitives(g, features)) {
+        query_secondary_surfaces_primitives(g, done, rays, hits, surfaces, material);
     } else {
         query_secondary_surfaces_end(g, features, done, rays, hits, surfaces, material);
     }

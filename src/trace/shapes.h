@@ -1,8 +1,8 @@
-// The other shapes of a Geometry: parts that stand alone and composites, in a tree of their boxes.
+// The other shapes of a Geometry: primitives that stand alone and composites, in a tree of their boxes.
 //
-// The tree is walked by a function for each query in the table of kernels (trace/spheres.h): a kernel of a scene that has
-// none of these holds a call it never reaches, or no call at all. Knows nothing of spheres and planes that are kept in
-// arrays of their own.
+// The tree is walked by a function for each query in the table of kernels (trace/spheres.h): a kernel of a scene that
+// has none of these holds a call it never reaches, or no call at all. Knows nothing of spheres and planes that are kept
+// in arrays of their own.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_H
@@ -10,28 +10,28 @@
 
 #include "trace/bvh.h"
 #include "trace/mesh.h"
-#include "trace/solid.h"
+#include "trace/prepared_primitive.h"
 #include "trace/spheres.h"
 #include "trace/trace.h"
 
-static inline ShapeId part_shape(uint32_t index, uint8_t side)
+static inline ShapeId primitive_shape(uint32_t index, uint8_t side)
 {
-    return shape_id(SHAPE_PART, index << PART_SIDE_BITS | side);
+    return shape_id(SHAPE_PRIMITIVE, index << PRIMITIVE_SIDE_BITS | side);
 }
 
-static inline uint32_t part_index(ShapeId shape)
+static inline uint32_t primitive_index(ShapeId shape)
 {
-    return shape_index(shape) >> PART_SIDE_BITS;
+    return shape_index(shape) >> PRIMITIVE_SIDE_BITS;
 }
 
-static inline uint8_t part_side(ShapeId shape)
+static inline uint8_t primitive_side(ShapeId shape)
 {
-    return shape & ((1u << PART_SIDE_BITS) - 1);
+    return shape & ((1u << PRIMITIVE_SIDE_BITS) - 1);
 }
 
-static inline bool starts_on_part(RayStart start)
+static inline bool starts_on_primitive(RayStart start)
 {
-    return start.shape != SHAPE_NONE && shape_is_on_part(start.shape);
+    return start.shape != SHAPE_NONE && shape_is_on_primitive(start.shape);
 }
 
 // A node of a composite's tree; see scene.h.
@@ -46,25 +46,26 @@ typedef struct TreeNode {
 
 enum { CSG_PLAIN_MOST = 8 };
 
-typedef struct CsgParts CsgParts; // csg_parts.h
+typedef struct CsgPrimitives CsgPrimitives; // csg_primitives.h
 
 typedef struct CsgTree {
     uint32_t first_node, node_count;
-    uint32_t first_solid, solid_count;
+    uint32_t first_primitive, primitive_count;
     uint32_t crossing_count; // of one ray, at most
-    uint32_t interval_most;  // of one of its solids
+    uint32_t interval_most;  // of one of its primitives
     uint8_t hidden;
-    bool is_plain; // all of a few convex solids in one node
-    bool is_meet;  // what convex solids, any number of them, have in common
-    bool is_convex; // its solids are
+    bool is_plain;  // all of a few convex primitives in one node
+    bool is_meet;   // what convex primitives, any number of them, have in common
+    bool is_convex; // its primitives are
     uint32_t order;
-    uint32_t seen_count; // its solids from there on only clip others
+    uint32_t seen_count; // its primitives from there on only clip others
     uint32_t mesh_count;
-    CsgParts *parts;     // of many; NULL: they are few; owned
+    CsgPrimitives *parts; // of many; NULL: they are few; owned
 } CsgTree;
 
-// What stands for itself: a solid, or a CSG tree when the number is not below solid_count, or behind those a cluster of
-// such items; of a solid that has a test in lanes with a bit that tells it, so that nobody need look at it.
+// What stands for itself: a primitive, or a CSG tree when the number is not below primitive_count, or behind those a
+// cluster of such items; of a primitive that has a test in lanes with a bit that tells it, so that nobody need look at
+// it.
 typedef uint32_t ShapeItem;
 #define ITEM_LANES 0x80000000u
 
@@ -73,31 +74,34 @@ static inline uint32_t item_index(ShapeItem item)
     return item & ~ITEM_LANES;
 }
 
-// Whether some rays are tested against solids of that kind at once (trace/solid_lanes.h).
-static inline bool kind_has_lanes(PartKind kind)
+// Whether some rays are tested against primitives of that kind at once (trace/primitive_lanes.h).
+static inline bool kind_has_lanes(PrimitiveKind kind)
 {
-    const unsigned kinds = 1u << PART_SPHERE | 1u << PART_BOX | 1u << PART_CONE | 1u << PART_DISC | 1u << PART_TRIANGLE |
-                           1u << PART_SMOOTH_TRIANGLE | 1u << PART_TORUS | 1u << PART_POLYNOMIAL;
+    const unsigned kinds = 1u << PRIMITIVE_SPHERE | 1u << PRIMITIVE_BOX | 1u << PRIMITIVE_CONE | 1u << PRIMITIVE_DISC |
+                           1u << PRIMITIVE_TRIANGLE | 1u << PRIMITIVE_SMOOTH_TRIANGLE | 1u << PRIMITIVE_TORUS |
+                           1u << PRIMITIVE_POLYNOMIAL;
     return kinds >> kind & 1;
 }
 
-// Whether that is so by trace/curve_lanes.h, and then of which solids of the kind: tori that do not go through
+// Whether that is so by trace/curve_lanes.h, and then of which primitives of the kind: tori that do not go through
 // themselves and closed surfaces of order 4.
-static inline bool kind_is_curve(PartKind kind)
+static inline bool kind_is_curve(PrimitiveKind kind)
 {
-    return kind == PART_TORUS || kind == PART_POLYNOMIAL;
+    return kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL;
 }
 
-static inline bool solid_is_curve(const Solid *solid)
+static inline bool primitive_is_curve(const PreparedPrimitive *primitive)
 {
-    return solid->kind == PART_TORUS ? solid->data[0].y <= solid->data[0].x
-                                     : solid->kind == PART_POLYNOMIAL && !solid_is_endless(solid) &&
-                                           polynomial_order(solid->list.items) == 4;
+    return primitive->kind == PRIMITIVE_TORUS
+               ? primitive->data[0].y <= primitive->data[0].x
+               : primitive->kind == PRIMITIVE_POLYNOMIAL && !prepared_is_endless(primitive) &&
+                     polynomial_order(primitive->list.items) == 4;
 }
 
-static inline bool solid_has_lanes(const Solid *solid)
+static inline bool primitive_has_lanes(const PreparedPrimitive *primitive)
 {
-    return kind_is_curve((PartKind)solid->kind) ? solid_is_curve(solid) : kind_has_lanes((PartKind)solid->kind);
+    return kind_is_curve((PrimitiveKind)primitive->kind) ? primitive_is_curve(primitive)
+                                                         : kind_has_lanes((PrimitiveKind)primitive->kind);
 }
 
 // The box of an item as its leaf has it: in the tree's coordinates, rounded outward.
@@ -114,10 +118,10 @@ typedef struct ShapeCluster {
 
 struct ShapeTable {
     const Abandon *abandon; // NULL: no ray is left untraced; not owned
-    IsosurfaceWorld isosurfaces; // which solids refer to
-    Solid *solids;
-    Pages solid_pages; // which they are in; owned
-    uint32_t solid_count;
+    IsosurfaceWorld isosurfaces; // which primitives refer to
+    PreparedPrimitive *primitives;
+    Pages primitive_pages; // which they are in; owned
+    uint32_t primitive_count;
     TreeNode *nodes;
     CsgTree *csg_trees;
     uint32_t node_count, csg_count;
@@ -127,26 +131,27 @@ struct ShapeTable {
     uint32_t unbounded_count, bounded_count;
     Bvh tree; // of the bounded ones; its leaves are runs of their items
     MeshTable **meshes;      // the different ones; owned
-    uint32_t *mesh_solids;   // the solids that are meshes, in their order, which is that of their faces' numbers
+    uint32_t *mesh_solids;   // the primitives that are meshes, in their order, which is that of their faces' numbers
     uint32_t mesh_count, mesh_solid_count;
     ShapeCluster *clusters; // NULL: none; owned
     uint32_t cluster_count, clustered_count; // how many items they have, which stand behind the others
 };
 
-// The solid that a shape is on which is on a part.
-uint32_t table_face_solid(const ShapeTable *table, ShapeId face);
-static inline uint32_t table_part(const ShapeTable *table, ShapeId shape)
+// The solid that a shape is on which is on a primitive.
+uint32_t table_face_primitive(const ShapeTable *table, ShapeId face);
+static inline uint32_t table_primitive_index(const ShapeTable *table, ShapeId shape)
 {
-    return RT_LIKELY(shape_kind(shape) == SHAPE_PART) ? part_index(shape) : table_face_solid(table, shape);
+    return RT_LIKELY(shape_kind(shape) == SHAPE_PRIMITIVE) ? primitive_index(shape)
+                                                           : table_face_primitive(table, shape);
 }
 
-static inline const Solid *table_solid(const ShapeTable *table, ShapeId shape)
+static inline const PreparedPrimitive *table_primitive(const ShapeTable *table, ShapeId shape)
 {
-    return &table->solids[table_part(table, shape)];
+    return &table->primitives[table_primitive_index(table, shape)];
 }
 
-// Takes over the scene's parts and composites, lengths multiplied by 2^-exponent. False when out of memory; the table
-// may then be given to shapes_fini.
+// Takes over the scene's primitives and composites, lengths multiplied by 2^-exponent. False when out of memory; the
+// table may then be given to shapes_fini.
 bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads,
                  const atomic_bool *cancel) RT_MUST_CHECK;
 void shapes_fini(ShapeTable *table);
@@ -158,30 +163,30 @@ static inline bool shapes_are_abandoned(const ShapeTable *table)
     return table->abandon && trace_is_abandoned(table->abandon);
 }
 
-// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: their families have a
-// bit in common. Such a ray has passed what lies within rounding of its start.
-static inline bool starts_beside(const ShapeTable *table, RayStart start, const Solid *solid)
+// Whether a ray starts on another surface that a primitive's own may coincide with but for rounding: their families
+// have a bit in common. Such a ray has passed what lies within rounding of its start.
+static inline bool starts_beside(const ShapeTable *table, RayStart start, const PreparedPrimitive *primitive)
 {
     if (start.shape == SHAPE_NONE) {
         return false;
     }
     ShapeKind kind = shape_kind(start.shape);
-    uint8_t family = kind == SHAPE_PART     ? table->solids[part_index(start.shape)].family
-                     : kind == SHAPE_SPHERE ? FAMILY_ROUND
-                                            : FAMILY_STRAIGHT;
-    return (family & solid->family) != 0;
+    uint8_t family = kind == SHAPE_PRIMITIVE ? table->primitives[primitive_index(start.shape)].family
+                     : kind == SHAPE_SPHERE  ? FAMILY_ROUND
+                                             : FAMILY_STRAIGHT;
+    return (family & primitive->family) != 0;
 }
 
-// The material of a shape on a part.
+// The material of a shape on a primitive.
 MaterialIndex shapes_material(const ShapeTable *table, ShapeId shape);
 
 // How far a crossing's t may be off by rounding, `object` being the ray in the space of the shape's solid.
 double shapes_error(const ShapeTable *table, const Ray *ray, const Ray *object, double t, ShapeId shape);
 
-// How far along the ray its start may be off the part that it starts on.
+// How far along the ray its start may be off the primitive that it starts on.
 double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart start);
 
-// Where the ray hit. The normal points out of what the solid is in.
+// Where the ray hit. The normal points out of what the primitive is in.
 Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit);
 
 // csg.c: offers the nearest crossing of a CSG tree that is seen. None lies before `enter`, but for rounding.
@@ -195,11 +200,11 @@ RT_ALWAYS_INLINE RootSpan crossing_span(double t, double error, double enter)
     return (RootSpan){span.from < enter ? enter : span.from, span.to < enter ? enter : span.to};
 }
 
-// Offers a crossing of a side of a solid, into it or out of it.
+// Offers a crossing of a side of a primitive, into it or out of it.
 // The same of a face of a mesh, `shape`.
 void face_offer(const ShapeTable *table, ShapeId shape, const Ray *ray, double t, RootSpan span, Foremost *first);
 
-void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, RootSpan span, uint8_t side,
-                 bool leaves, Foremost *first);
+void primitive_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, RootSpan span, uint8_t side,
+                     bool leaves, Foremost *first);
 
 #endif

@@ -19,7 +19,7 @@ typedef struct Finder {
     PlacedItem *items;
     Span1 *spans; // room for as many
     ItemRun *runs;
-    uint32_t run_count, parts; // in how many parts all is divided
+    uint32_t run_count, parts; // in how many primitives all is divided
 } Finder;
 
 static double along(Vec3 v, int axis)
@@ -107,7 +107,7 @@ static uint32_t divide(Finder *finder, ItemRun run)
     return widest_gap(finder, run, &share);
 }
 
-// The recursion is no deeper than there are parts.
+// The recursion is no deeper than there are primitives.
 static void find(Finder *finder, ItemRun run, bool is_whole)
 {
     bool is_large = run.end - run.begin >= CLUSTER_LEAST;

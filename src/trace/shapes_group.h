@@ -1,4 +1,4 @@
-// Rays that all end at or about one point against parts that stand alone and composites: part of spheres_kernel.c.
+// Rays that all end at or about one point against primitives that stand alone and composites: part of spheres_kernel.c.
 //
 // They walk the tree together, as in spheres_group.h. Solids whose kind has a test in lanes are tested against a vector
 // of them at a time; what is not decided with a margin, and all other shapes, are asked ray by ray, so the answers are
@@ -9,7 +9,7 @@
 #define TRACE_SHAPES_GROUP_H
 
 #include "trace/shapes_walk.h"
-#include "trace/solid_lanes.h"
+#include "trace/primitive_lanes.h"
 #include "trace/spheres_group.h"
 
 enum { GROUP_ITEMS = 8 }; // for each ray
@@ -17,51 +17,53 @@ enum { GROUP_ITEMS = 8 }; // for each ray
 typedef struct ShapeGroup {
     const ShapeTable *table;
     RayStart start; // of all of them, outward
-    const Solid *left;
+    const PreparedPrimitive *left;
     double far; // of any origin from 0
     double start_error[TILE_RAYS]; // as in ShapeQuery
-    // Of balls, straight solids and curves, at most: see passed_error; -INFINITY: nothing.
+    // Of balls, straight primitives and curves, at most: see passed_error; -INFINITY: nothing.
     _Alignas(64) double passed_round[TILE_RAYS];
     double passed_straight[TILE_RAYS];
     double passed_curve[TILE_RAYS];
 } ShapeGroup;
 
-// n·d where some rays start on a solid's side, n being the gradient there.
-RT_ALWAYS_INLINE Doubles start_along(const Solid *left, uint8_t side, const Doubles f[3], const Doubles d[3])
+// n·d where some rays start on a primitive's side, n being the gradient there.
+RT_ALWAYS_INLINE Doubles start_along(const PreparedPrimitive *left, uint8_t side, const Doubles f[3],
+                                     const Doubles d[3])
 {
-    int across = solid_classes[left->kind].across[side];
+    int across = prepared_classes[left->kind].across[side];
     if (across > 0) {
         return d[across - 1];
     }
-    if (left->kind == PART_TORUS) {
+    if (left->kind == PRIMITIVE_TORUS) {
         Doubles rho = doubles_sqrt(f[0] * f[0] + f[2] * f[2]);
         double ring = side == TORUS_OUTER ? left->data[0].x : -left->data[0].x;
         return lanes_dot(f, d) - ring * ((f[0] * d[0] + f[2] * d[2]) / rho);
     }
-    double slope = left->kind == PART_CONE ? 1.0 - left->data[0].x : 0.0;
-    return left->kind == PART_CONE ? f[0] * d[0] + f[1] * d[1] + slope * doubles_sqrt(f[0] * f[0] + f[1] * f[1]) * d[2]
-                                   : lanes_dot(f, d);
+    double slope = left->kind == PRIMITIVE_CONE ? 1.0 - left->data[0].x : 0.0;
+    return left->kind == PRIMITIVE_CONE
+               ? f[0] * d[0] + f[1] * d[1] + slope * doubles_sqrt(f[0] * f[0] + f[1] * f[1]) * d[2]
+               : lanes_dot(f, d);
 }
 
-// How much of solids of the family that they start on the rays have passed, at most.
+// How much of primitives of the family that they start on the rays have passed, at most.
 static void group_set_passed(ShapeGroup *from, const RayGroup *group)
 {
-    const Solid *left = from->left;
+    const PreparedPrimitive *left = from->left;
     bool has_lanes = left && kind_has_lanes(left->kind);
     bool is_round = left ? (left->family & FAMILY_ROUND) != 0 : shape_kind(from->start.shape) == SHAPE_SPHERE;
     bool is_straight = left ? (left->family & FAMILY_STRAIGHT) != 0 : !is_round;
-    bool is_curve = left && kind_is_curve((PartKind)left->kind);
-    LaneSolid own;
+    bool is_curve = left && kind_is_curve((PrimitiveKind)left->kind);
+    LanePrimitive own;
     from->far = vec3_length(group->end) + group->farthest;
     if (has_lanes) {
-        lane_solid_set(&own, left, from->far);
+        lane_primitive_set(&own, left, from->far);
     }
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
-        if (has_lanes && left->kind != PART_POLYNOMIAL) {
+        if (has_lanes && left->kind != PRIMITIVE_POLYNOMIAL) {
             Doubles f[3], d[3];
-            lane_solid_ray(&own, group->origin, group->direction, at, f, d);
-            passed = own.slack.fixed / doubles_abs(start_along(left, part_side(from->start.shape), f, d));
+            lane_primitive_ray(&own, group->origin, group->direction, at, f, d);
+            passed = own.slack.fixed / doubles_abs(start_along(left, primitive_side(from->start.shape), f, d));
         } else if (!left && is_straight) {
             for (unsigned i = 0; i < DOUBLES; i++) {
                 passed[i] = from->start_error[at + i < group->count ? at + i : group->count - 1];
@@ -74,31 +76,32 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
     }
 }
 
-// What one vector of rays meets of a solid: what is before a ray's end, or is not, with a margin.
+// What one vector of rays meets of a primitive: what is before a ray's end, or is not, with a margin.
 typedef struct LanesMet {
     unsigned met, open;
 } LanesMet;
 
-// How much of a solid the rays have passed; of the one that they start on, nothing.
-RT_ALWAYS_INLINE Doubles group_passed(const ShapeGroup *from, const Solid *solid, PartKind kind, unsigned at)
+// How much of a primitive the rays have passed; of the one that they start on, nothing.
+RT_ALWAYS_INLINE Doubles group_passed(const ShapeGroup *from, const PreparedPrimitive *primitive, PrimitiveKind kind,
+                                      unsigned at)
 {
     if (kind_is_curve(kind)) {
-        bool is_passed = from->left && solid != from->left && solid->family == from->left->family;
+        bool is_passed = from->left && primitive != from->left && primitive->family == from->left->family;
         return is_passed ? doubles_load(&from->passed_curve[at]) : doubles_splat(-(double)INFINITY);
     }
-    return doubles_load(&(kind == PART_SPHERE ? from->passed_round : from->passed_straight)[at]);
+    return doubles_load(&(kind == PRIMITIVE_SPHERE ? from->passed_round : from->passed_straight)[at]);
 }
 
-RT_ALWAYS_INLINE LanesMet group_solid_lanes(const ShapeGroup *from, const RayGroup *group, const LaneSolid *own,
-                                            PartKind kind, const ItemBox *box, unsigned at, unsigned asked)
+RT_ALWAYS_INLINE LanesMet group_primitive_lanes(const ShapeGroup *from, const RayGroup *group, const LanePrimitive *own,
+                                                PrimitiveKind kind, const ItemBox *box, unsigned at, unsigned asked)
 {
-    SolidLanes lanes;
+    PrimitiveLanes lanes;
     Doubles f[3], d[3], direction[3];
-    lane_solid_ray(own, group->origin, group->direction, at, f, d);
+    lane_primitive_ray(own, group->origin, group->direction, at, f, d);
     lanes_load(group->direction, at, direction);
     bool is_met = kind_is_curve(kind) && own->solid == from->left
                       ? curve_lanes(own, kind, f, d, true, asked, &lanes)
-                      : solid_lanes(own, kind, f, d, direction, asked, &lanes);
+                      : primitive_lanes(own, kind, f, d, direction, asked, &lanes);
     if (!is_met) {
         return (LanesMet){0, 0};
     }
@@ -131,17 +134,18 @@ static bool group_ray_meets(const ShapeGroup *from, const RayGroup *group, unsig
     return first.hit.shape != SHAPE_NONE;
 }
 
-// The rays that a solid is in the way of, with those that are `occluded`; sets those that `may` be, to be asked one by
-// one.
-RT_ALWAYS_INLINE uint64_t group_solid_kind(const ShapeGroup *from, const RayGroup *group, const Solid *solid,
-                                           PartKind kind, const ItemBox *box, uint64_t occluded, uint64_t *may)
+// The rays that a primitive is in the way of, with those that are `occluded`; sets those that `may` be, to be asked one
+// by one.
+RT_ALWAYS_INLINE uint64_t group_primitive_kind(const ShapeGroup *from, const RayGroup *group,
+                                               const PreparedPrimitive *primitive, PrimitiveKind kind,
+                                               const ItemBox *box, uint64_t occluded, uint64_t *may)
 {
-    LaneSolid own;
-    lane_solid_set(&own, solid, from->far);
+    LanePrimitive own;
+    lane_primitive_set(&own, primitive, from->far);
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         unsigned asked = ~occluded >> at & ((1u << DOUBLES) - 1);
         if (asked) {
-            LanesMet found = group_solid_lanes(from, group, &own, kind, box, at, asked);
+            LanesMet found = group_primitive_lanes(from, group, &own, kind, box, at, asked);
             occluded |= (uint64_t)found.met << at;
             *may |= (uint64_t)found.open << at;
         }
@@ -149,26 +153,34 @@ RT_ALWAYS_INLINE uint64_t group_solid_kind(const ShapeGroup *from, const RayGrou
     return occluded;
 }
 
-static uint64_t group_solid(const ShapeGroup *from, const RayGroup *group, const Solid *solid, const ItemBox *box,
-                            uint64_t occluded, uint64_t *may)
+static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, const PreparedPrimitive *primitive,
+                                const ItemBox *box, uint64_t occluded, uint64_t *may)
 {
     *may = 0;
-    if ((solid->hidden & from->start.use) ||
-        (solid == from->left && (solid_is_flat(solid) || (!solid->flips && solid_is_convex(solid))))) {
+    if ((primitive->hidden & from->start.use) ||
+        (primitive == from->left &&
+         (primitive_is_flat(primitive) || (!primitive->flips && primitive_is_convex(primitive))))) {
         return occluded;
     }
-    if (solid == from->left && solid->flips && !solid_is_convex(solid)) {
+    if (primitive == from->left && primitive->flips && !primitive_is_convex(primitive)) {
         *may = ~occluded; // they go in
         return occluded;
     }
-    switch (solid->kind) {
-    case PART_SPHERE: return group_solid_kind(from, group, solid, PART_SPHERE, box, occluded, may);
-    case PART_BOX: return group_solid_kind(from, group, solid, PART_BOX, box, occluded, may);
-    case PART_CONE: return group_solid_kind(from, group, solid, PART_CONE, box, occluded, may);
-    case PART_DISC: return group_solid_kind(from, group, solid, PART_DISC, box, occluded, may);
-    case PART_TORUS: return group_solid_kind(from, group, solid, PART_TORUS, box, occluded, may);
-    case PART_POLYNOMIAL: return group_solid_kind(from, group, solid, PART_POLYNOMIAL, box, occluded, may);
-    default: return group_solid_kind(from, group, solid, PART_TRIANGLE, box, occluded, may);
+    switch (primitive->kind) {
+    case PRIMITIVE_SPHERE:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_SPHERE, box, occluded, may);
+    case PRIMITIVE_BOX:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_BOX, box, occluded, may);
+    case PRIMITIVE_CONE:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_CONE, box, occluded, may);
+    case PRIMITIVE_DISC:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_DISC, box, occluded, may);
+    case PRIMITIVE_TORUS:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_TORUS, box, occluded, may);
+    case PRIMITIVE_POLYNOMIAL:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_POLYNOMIAL, box, occluded, may);
+    default:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_TRIANGLE, box, occluded, may);
     }
 }
 
@@ -183,7 +195,8 @@ static uint64_t group_item(const void *context, const RayGroup *group, const Ray
     uint64_t may = ~occluded;
     (void)cone;
     if (item & ITEM_LANES) {
-        occluded = group_solid(from, group, &table->solids[item_index(item)], &table->boxes[at], occluded, &may);
+        occluded =
+            group_primitive(from, group, &table->primitives[item_index(item)], &table->boxes[at], occluded, &may);
     }
     for (; may; may &= may - 1) {
         unsigned i = (unsigned)__builtin_ctzll(may);
@@ -227,7 +240,7 @@ static uint64_t shapes_occluded_surfaces(const ShapeTable *table, const TileSurf
         unsigned count = 0;
         rest &= ~members;
         own.start = (RayStart){shape, false, HIDDEN_SHADOW};
-        own.left = starts_on_part(own.start) ? table_solid(table, shape) : NULL;
+        own.left = starts_on_primitive(own.start) ? table_primitive(table, shape) : NULL;
         for (uint64_t each = members; each; each &= each - 1) {
             own.start_error[count++] = start_error[__builtin_ctzll(each)];
         }

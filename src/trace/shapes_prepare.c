@@ -1,13 +1,13 @@
-// Scene parts and composites made ready for rays: lengths scaled, boxes found, the bounded ones put into a tree.
+// Scene primitives and composites made ready for rays: lengths scaled, boxes found, the bounded ones put into a tree.
 //
 // SPDX-License-Identifier: MIT
 #include <float.h>
 #include <stdlib.h>
 
 #include "base/intern.h"
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "trace/csg_bounds.h"
-#include "trace/csg_parts.h"
+#include "trace/csg_primitives.h"
 #include "trace/half_spaces.h"
 #include "trace/shapes_clusters.h"
 
@@ -22,69 +22,69 @@ static double times_power(double x, int exponent, double power)
     return RT_LIKELY(isfinite(power)) ? x * power : ldexp(x, exponent);
 }
 
-static Solid solid_of(const Part *part, int exponent, double down, double up)
+static PreparedPrimitive primitive_of(const Primitive *primitive, int exponent, double down, double up)
 {
-    const PrimitiveClass *primitive = primitive_class(part->kind);
-    Solid solid = {
-        .kind = (uint8_t)part->kind,
-        .family = (uint8_t)primitive->family,
-        .traits = (uint8_t)((primitive->interval_count == 0 ? SOLID_FLAT : 0) |
-                            (primitive->interval_count <= 1 && !primitive->is_mesh ? SOLID_CONVEX : 0) |
-                            (primitive->is_sized ? SOLID_SIZED : 0) | (primitive->is_mesh ? SOLID_MESH : 0)),
-        .flags = part->flags,
-        .hidden = part->hidden,
-        .flips = part->flags & PART_INVERSE,
-        .node = part->node,
+    const PrimitiveClass *class = primitive_class(primitive->kind);
+    PreparedPrimitive prepared = {
+        .kind = (uint8_t)primitive->kind,
+        .family = (uint8_t) class->family,
+        .traits = (uint8_t)((class->interval_count == 0 ? TRAIT_FLAT : 0) |
+                            (class->interval_count <= 1 && !class->is_mesh ? TRAIT_CONVEX : 0) |
+                            (class->is_sized ? TRAIT_SIZED : 0) | (class->is_mesh ? TRAIT_MESH : 0)),
+        .flags = primitive->flags,
+        .hidden = primitive->hidden,
+        .flips = primitive->flags & PRIMITIVE_INVERSE,
+        .node = primitive->node,
         .composite = NODE_NONE,
         .twin = SLOT_NONE,
-        .material = part->material,
-        .order = part->order,
-        .body = part->body,
-        .interval_most = primitive_intervals(part),
+        .material = primitive->material,
+        .order = primitive->order,
+        .body = primitive->body,
+        .interval_most = primitive_interval_most(primitive),
     };
-    memcpy(solid.data, part->data, sizeof solid.data);
-    solid.films = solid_classes[solid.kind].films;
-    solid.unseen = (uint8_t)(solid_classes[solid.kind].unseen | (part->flags & PART_OPEN ? ~1 : 0));
-    solid.traits |= solid_classes[solid.kind].turns ? SOLID_TURNS : 0;
-    if (part->kind == PART_PLANE) {
-        solid.data[1].x = ldexp(part->data[1].x, -exponent);
-        return solid;
+    memcpy(prepared.data, primitive->data, sizeof prepared.data);
+    prepared.films = prepared_classes[prepared.kind].films;
+    prepared.unseen = (uint8_t)(prepared_classes[prepared.kind].unseen | (primitive->flags & PRIMITIVE_OPEN ? ~1 : 0));
+    prepared.traits |= prepared_classes[prepared.kind].turns ? TRAIT_TURNS : 0;
+    if (primitive->kind == PRIMITIVE_PLANE) {
+        prepared.data[1].x = ldexp(primitive->data[1].x, -exponent);
+        return prepared;
     }
-    const double *origin = part->to_world.m[3];
-    solid.centre = vec3(times_power(origin[0], -exponent, down), times_power(origin[1], -exponent, down),
-                        times_power(origin[2], -exponent, down));
+    const double *origin = primitive->to_world.m[3];
+    prepared.centre = vec3(times_power(origin[0], -exponent, down), times_power(origin[1], -exponent, down),
+                           times_power(origin[2], -exponent, down));
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++) {
-            solid.to_world.m[row][column] = times_power(part->to_world.m[row][column], -exponent, down);
-            solid.to_object.m[row][column] = times_power(part->to_object.m[row][column], exponent, up);
+            prepared.to_world.m[row][column] = times_power(primitive->to_world.m[row][column], -exponent, down);
+            prepared.to_object.m[row][column] = times_power(primitive->to_object.m[row][column], exponent, up);
         }
     }
-    solid_measure(&solid);
-    if (part->kind == PART_POLYNOMIAL || part->kind == PART_BLOB) {
-        solid.columns = vec3_scale(POLYNOMIAL_ROUNDING, solid.columns); // their roots are known to so much less
+    primitive_measure(&prepared);
+    if (primitive->kind == PRIMITIVE_POLYNOMIAL || primitive->kind == PRIMITIVE_BLOB) {
+        prepared.columns = vec3_scale(POLYNOMIAL_ROUNDING, prepared.columns); // their roots are known to so much less
     }
-    return solid;
+    return prepared;
 }
 
-// The box of a part's surface, moved outward by the error of its support (see scene/part.c).
-static Bounds part_bounds(const Part *part, int exponent, double down)
+// The box of a primitive's surface, moved outward by the error of its support (see scene/part.c).
+static Bounds part_bounds(const Primitive *primitive, int exponent, double down)
 {
-    if (part->kind == PART_PLANE) {
+    if (primitive->kind == PRIMITIVE_PLANE) {
         return BOUNDS_ALL;
     }
     double low[3], high[3];
-    bool is_along_axes = part->kind == PART_SPHERE && part_map_is_diagonal(part->to_world.m);
+    bool is_along_axes = primitive->kind == PRIMITIVE_SPHERE && primitive_map_is_diagonal(primitive->to_world.m);
     for (int axis = 0; axis < 3; axis++) {
         if (is_along_axes) { // what the general way comes to
-            double half = fabs(part->to_world.m[axis][axis]), middle = part->to_world.m[3][axis];
+            double half = fabs(primitive->to_world.m[axis][axis]), middle = primitive->to_world.m[3][axis];
             double error = 12.0 * (DBL_EPSILON / 2) * (half + fabs(middle));
             high[axis] = times_power(middle + half + error, -exponent, down);
             low[axis] = times_power(middle - half - error, -exponent, down);
             continue;
         }
         Vec3 n = vec3(axis == 0, axis == 1, axis == 2);
-        double error = 12.0 * (DBL_EPSILON / 2) * part_reach(part, n);
-        part_span(part, n, &low[axis], &high[axis]);
+        double error = 12.0 * (DBL_EPSILON / 2) * primitive_reach(primitive, n);
+        primitive_span(primitive, n, &low[axis], &high[axis]);
         high[axis] = times_power(high[axis] + error, -exponent, down);
         low[axis] = times_power(low[axis] - error, -exponent, down);
     }
@@ -106,10 +106,10 @@ static Bounds planes_bounds(const ShapeTable *table, const CsgTree *csg)
     HalfSpace spaces[MOST];
     Bounds bounds;
     uint32_t count = 0;
-    for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count && count < MOST; i++) {
-        const Solid *solid = &table->solids[i];
-        if (solid->decides && solid->kind == PART_PLANE) {
-            spaces[count++] = (HalfSpace){solid->data[0], solid->data[1].x};
+    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count && count < MOST; i++) {
+        const PreparedPrimitive *primitive = &table->primitives[i];
+        if (primitive->decides && primitive->kind == PRIMITIVE_PLANE) {
+            spaces[count++] = (HalfSpace){primitive->data[0], primitive->data[1].x};
         }
     }
     return half_spaces_bounds(spaces, count, &bounds) ? bounds : BOUNDS_ALL;
@@ -126,12 +126,12 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
         const TreeNode *node = &table->nodes[i];
         node_bounds[i] = node->op == NODE_UNION || node->op == NODE_MERGE ? BOUNDS_NONE : BOUNDS_ALL;
     }
-    for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count; i++) {
-        TreeNode *node = &table->nodes[table->solids[i].node];
-        bool is_inverse = table->solids[i].flags & PART_INVERSE;
+    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count; i++) {
+        TreeNode *node = &table->nodes[table->primitives[i].node];
+        bool is_inverse = table->primitives[i].flags & PRIMITIVE_INVERSE;
         Bounds bounds = is_inverse ? BOUNDS_ALL : surfaces[i];
         node->idle_inside += is_inverse;
-        node_take(node, &node_bounds[table->solids[i].node], &bounds);
+        node_take(node, &node_bounds[table->primitives[i].node], &bounds);
         surface = bounds_join(surface, surfaces[i]);
     }
     for (uint32_t i = first + csg->node_count; i-- > first + 1;) {
@@ -145,7 +145,7 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
     if (!bounds_are_finite(bounds)) {
         bounds = bounds_meet(bounds, planes_bounds(table, csg));
     }
-    bool may_be_less = csg->solid_count > 1 && !bounds_are_finite(surface);
+    bool may_be_less = csg->primitive_count > 1 && !bounds_are_finite(surface);
     return may_be_less ? csg_bounds(table, csg, surfaces, bounds, node_bounds, spare) : bounds;
 }
 
@@ -159,36 +159,38 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
     CsgTree *csg = &table->csg_trees[index];
     *csg = (CsgTree){.first_node = composite->first_node,
                      .node_count = composite->node_count,
-                     .first_solid = composite->first_part,
-                     .solid_count = composite->part_count,
+                     .first_primitive = composite->first_primitive,
+                     .primitive_count = composite->primitive_count,
                      .hidden = composite->hidden,
                      .interval_most = 1,
                      .is_convex = true,
                      .order = composite->order};
     csg->is_meet = csg->node_count == 1 && node_is_all(&table->nodes[csg->first_node]) &&
                    !table->nodes[csg->first_node].is_inverse;
-    csg->is_plain = csg->is_meet && csg->solid_count <= CSG_PLAIN_MOST;
-    for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
-        Solid *solid = &table->solids[i];
-        csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
-        solid->composite = index;
-        csg->is_plain = csg->is_plain && solid_is_convex(solid) && !solid_is_flat(solid);
-        csg->is_convex = csg->is_convex && solid_is_convex(solid);
-        csg->interval_most = solid->interval_most > csg->interval_most ? solid->interval_most : csg->interval_most;
-        csg->crossing_count += solid_is_mesh(solid)   ? MESH_CROSSINGS
-                               : solid_is_flat(solid) ? 2
-                                                      : 2 * solid->interval_most;
-        if (solid_is_mesh(solid)) {
-            solid->mesh.cursor = csg->mesh_count++;
+    csg->is_plain = csg->is_meet && csg->primitive_count <= CSG_PLAIN_MOST;
+    for (uint32_t i = composite->first_primitive; i < composite->first_primitive + composite->primitive_count; i++) {
+        PreparedPrimitive *primitive = &table->primitives[i];
+        csg->seen_count = primitive->flags & PRIMITIVE_UNSEEN ? csg->seen_count : i + 1 - composite->first_primitive;
+        primitive->composite = index;
+        csg->is_plain = csg->is_plain && primitive_is_convex(primitive) && !primitive_is_flat(primitive);
+        csg->is_convex = csg->is_convex && primitive_is_convex(primitive);
+        csg->interval_most =
+            primitive->interval_most > csg->interval_most ? primitive->interval_most : csg->interval_most;
+        csg->crossing_count += primitive_is_mesh(primitive)   ? MESH_CROSSINGS
+                               : primitive_is_flat(primitive) ? 2
+                                                              : 2 * primitive->interval_most;
+        if (primitive_is_mesh(primitive)) {
+            primitive->mesh.cursor = csg->mesh_count++;
         }
-        solid->is_needed = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && !solid_is_mesh(solid);
-        for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
+        primitive->is_needed =
+            !(primitive->flags & PRIMITIVE_INVERSE) && !primitive_is_flat(primitive) && !primitive_is_mesh(primitive);
+        for (uint32_t at = primitive->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
-            solid->flips = solid->flips != node->is_inverse;
-            solid->is_needed = solid->is_needed && node_is_all(node) && !node->is_inverse;
+            primitive->flips = primitive->flips != node->is_inverse;
+            primitive->is_needed = primitive->is_needed && node_is_all(node) && !node->is_inverse;
         }
-        solid->decides = solid->is_needed && solid_is_convex(solid);
-        csg->is_meet = csg->is_meet && solid->decides;
+        primitive->decides = primitive->is_needed && primitive_is_convex(primitive);
+        csg->is_meet = csg->is_meet && primitive->decides;
     }
 }
 
@@ -223,19 +225,20 @@ static bool fill_meshes(ShapeTable *table, const Scene *scene, InternTable *know
                         const atomic_bool *cancel)
 {
     uint64_t faces = 0;
-    for (uint32_t i = 0; i < table->solid_count; i++) {
-        const Part *part = &scene->parts.items[i];
-        Solid *solid = &table->solids[i];
-        if (!solid_is_mesh(solid)) {
+    for (uint32_t i = 0; i < table->primitive_count; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        PreparedPrimitive *prepared = &table->primitives[i];
+        if (!primitive_is_mesh(prepared)) {
             continue;
         }
-        solid->mesh.table = mesh_table(table, known, part->mesh.mesh, threads, cancel);
-        if (!solid->mesh.table || faces + part->mesh.mesh->face_count >= 1u << SHAPE_INDEX_BITS) {
+        prepared->mesh.table = mesh_table(table, known, primitive->mesh.mesh, threads, cancel);
+        if (!prepared->mesh.table || faces + primitive->mesh.mesh->face_count >= 1u << SHAPE_INDEX_BITS) {
             return false;
         }
-        solid->mesh.materials = scene->face_materials.items ? scene->face_materials.items + part->mesh.materials : NULL;
-        solid->mesh.first_face = (uint32_t)faces;
-        faces += part->mesh.mesh->face_count;
+        prepared->mesh.materials =
+            scene->face_materials.items ? scene->face_materials.items + primitive->mesh.materials : NULL;
+        prepared->mesh.first_face = (uint32_t)faces;
+        faces += primitive->mesh.mesh->face_count;
         table->mesh_solids[table->mesh_solid_count++] = i;
     }
     return true;
@@ -245,8 +248,8 @@ static bool fill_meshes(ShapeTable *table, const Scene *scene, InternTable *know
 static bool meshes_init(ShapeTable *table, const Scene *scene, int threads, const atomic_bool *cancel)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < table->solid_count; i++) {
-        count += primitive_class(scene->parts.items[i].kind)->is_mesh;
+    for (uint32_t i = 0; i < table->primitive_count; i++) {
+        count += primitive_class(scene->primitives.items[i].kind)->is_mesh;
     }
     if (count == 0) {
         return true;
@@ -265,16 +268,16 @@ typedef struct Work {
     Bounds *solids, *nodes; // the roots' boxes are those of their csg_trees; nodes: twice as many, the rest spare
     ShapeItem *bounded;
     Bounds *clusters;
-    Pages solid_pages, bounded_pages, ref_pages;
+    Pages primitive_pages, bounded_pages, ref_pages;
     const atomic_bool *cancel; // of building the tree
 } Work;
 
 static const Bounds *item_bounds(const ShapeTable *table, const Work *work, ShapeItem item)
 {
-    uint32_t index = item_index(item), tree = index - table->solid_count;
-    return index < table->solid_count ? &work->solids[index]
-           : tree < table->csg_count  ? &work->nodes[table->csg_trees[tree].first_node]
-                                      : &work->clusters[tree - table->csg_count];
+    uint32_t index = item_index(item), tree = index - table->primitive_count;
+    return index < table->primitive_count ? &work->solids[index]
+           : tree < table->csg_count      ? &work->nodes[table->csg_trees[tree].first_node]
+                                          : &work->clusters[tree - table->csg_count];
 }
 
 static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds *bounds)
@@ -423,7 +426,7 @@ static bool clusters_init(ShapeTable *table, Work *work, const PlacedItem *place
             inner[table->clustered_count++] = placed[at].item;
         }
         if (c < count) {
-            work->bounded[kept++] = table->solid_count + table->csg_count + c;
+            work->bounded[kept++] = table->primitive_count + table->csg_count + c;
         }
     }
     table->bounded_count = kept;
@@ -473,17 +476,17 @@ static bool trees_init(ShapeTable *table, Work *work, int threads)
 
 static bool items_init(ShapeTable *table, Work *work, int threads)
 {
-    for (uint32_t i = 0; i < table->solid_count; i++) {
-        if (table->solids[i].node == NODE_NONE) {
-            add_item(table, work, i | (solid_has_lanes(&table->solids[i]) ? ITEM_LANES : 0), &work->solids[i]);
+    for (uint32_t i = 0; i < table->primitive_count; i++) {
+        if (table->primitives[i].node == NODE_NONE) {
+            add_item(table, work, i | (primitive_has_lanes(&table->primitives[i]) ? ITEM_LANES : 0), &work->solids[i]);
         }
     }
     for (uint32_t i = 0; i < table->csg_count; i++) {
         CsgTree *csg = &table->csg_trees[i];
         Bounds *root = &work->nodes[csg->first_node];
         *root = csg_measure(table, csg, work->solids, work->nodes, work->nodes + table->node_count);
-        if (csg->solid_count > 0) {
-            add_item(table, work, table->solid_count + i, root);
+        if (csg->primitive_count > 0) {
+            add_item(table, work, table->primitive_count + i, root);
         }
         if (!csg_parts_init(table, csg, work->solids, threads, work->cancel)) {
             return false;
@@ -496,20 +499,20 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
 // What the table and the work on it need; what was taken is given back in any case.
 static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
 {
-    size_t most = scene->parts.count + scene->composites.count;
+    size_t most = scene->primitives.count + scene->composites.count;
     work->nodes = malloc((2 * scene->nodes.count + 1) * sizeof *work->nodes);
     table->nodes = malloc((scene->nodes.count + 1) * sizeof *table->nodes);
-    table->csg_trees = calloc(scene->composites.count + 1, sizeof *table->csg_trees); // without trees of parts
+    table->csg_trees = calloc(scene->composites.count + 1, sizeof *table->csg_trees); // without trees of primitives
     if (!work->nodes || !table->nodes || !table->csg_trees ||
-        !pages_take(&work->solid_pages, scene->parts.count * sizeof *work->solids) ||
+        !pages_take(&work->primitive_pages, scene->primitives.count * sizeof *work->solids) ||
         !pages_take(&work->bounded_pages, most * sizeof *work->bounded) ||
-        !pages_take(&table->solid_pages, scene->parts.count * sizeof *table->solids) ||
+        !pages_take(&table->primitive_pages, scene->primitives.count * sizeof *table->primitives) ||
         !pages_take(&table->item_pages, (most + CLUSTERS_MOST) * sizeof *table->items)) {
         return false;
     }
-    work->solids = work->solid_pages.memory;
+    work->solids = work->primitive_pages.memory;
     work->bounded = work->bounded_pages.memory;
-    table->solids = table->solid_pages.memory;
+    table->primitives = table->primitive_pages.memory;
     table->items = table->item_pages.memory;
     return true;
 }
@@ -517,24 +520,24 @@ static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
 bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads, const atomic_bool *cancel)
 {
     *table = (ShapeTable){
-        .solid_count = (uint32_t)scene->parts.count,
+        .primitive_count = (uint32_t)scene->primitives.count,
         .node_count = (uint32_t)scene->nodes.count,
         .csg_count = (uint32_t)scene->composites.count,
         .isosurfaces = {.scale = ldexp(1.0, exponent) / scene->text_unit},
     };
-    if (table->solid_count == 0) {
+    if (table->primitive_count == 0) {
         return true;
     }
     Work work = {.cancel = cancel};
     bool done = storage_take(table, scene, &work);
     if (done) {
         double down = ldexp(1.0, -exponent), up = ldexp(1.0, exponent);
-        for (uint32_t i = 0; i < table->solid_count; i++) {
-            table->solids[i] = solid_of(&scene->parts.items[i], exponent, down, up);
-            if (table->solids[i].kind == PART_ISOSURFACE || table->solids[i].kind == PART_JULIA) {
-                table->solids[i].isosurface.world = &table->isosurfaces;
+        for (uint32_t i = 0; i < table->primitive_count; i++) {
+            table->primitives[i] = primitive_of(&scene->primitives.items[i], exponent, down, up);
+            if (table->primitives[i].kind == PRIMITIVE_ISOSURFACE || table->primitives[i].kind == PRIMITIVE_JULIA) {
+                table->primitives[i].isosurface.world = &table->isosurfaces;
             }
-            work.solids[i] = part_bounds(&scene->parts.items[i], exponent, down);
+            work.solids[i] = part_bounds(&scene->primitives.items[i], exponent, down);
         }
         done = meshes_init(table, scene, threads, cancel);
         nodes_init(table, scene);
@@ -545,7 +548,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
     }
     free(work.nodes);
     free(work.clusters);
-    pages_give(&work.solid_pages);
+    pages_give(&work.primitive_pages);
     pages_give(&work.bounded_pages);
     pages_give(&work.ref_pages);
     return done;
@@ -563,7 +566,7 @@ void shapes_fini(ShapeTable *table)
     }
     free(table->meshes);
     free(table->mesh_solids);
-    pages_give(&table->solid_pages);
+    pages_give(&table->primitive_pages);
     pages_give(&table->item_pages);
     pages_give(&table->box_pages);
     bvh_fini(&table->tree);
@@ -586,7 +589,7 @@ size_t shapes_bytes(const ShapeTable *table)
     for (uint32_t i = 0; i < table->cluster_count; i++) {
         own += sizeof *table->clusters + table->clusters[i].tree.node_count * sizeof(BvhNode);
     }
-    return own + table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
+    return own + table->primitive_count * sizeof *table->primitives + table->node_count * sizeof *table->nodes +
            table->csg_count * sizeof *table->csg_trees +
            (table->unbounded_count + table->bounded_count + table->clustered_count) * sizeof *table->items +
            (table->bounded_count + table->clustered_count) * sizeof *table->boxes +

@@ -1,5 +1,5 @@
-// What one ray asks of parts that stand alone and composites, the boxes of these, and what a ray has passed where it
-// starts: part of spheres_kernel.c.
+// What one ray asks of primitives that stand alone and composites, the boxes of these, and what a ray has passed where
+// it starts: part of spheres_kernel.c.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_QUERY_H
@@ -22,9 +22,10 @@ typedef struct ShapeQuery {
     const Ray *ray;
     RayStart start;
     double start_error; // less than 0: not asked for yet
-    const Solid *left; // that it starts on; NULL for none
+    const PreparedPrimitive *left; // that it starts on; NULL for none
     bool is_any;       // whatever is met before the end of the way will do
-    const Solid *bounded; // the solid that is the first, where its hit's span is only bounded; NULL: no such
+    const PreparedPrimitive
+        *bounded;         // the primitive that is the first, where its hit's span is only bounded; NULL: no such
     double bounded_enter; // where the ray enters its box
     uint32_t at;          // of the item that was asked last among all
     const ItemBox *box;   // of the item that is asked; NULL: it has none
@@ -92,9 +93,9 @@ static double start_error(ShapeQuery *q)
 
 // What a ray starts on has been passed up to the error of the start and the root's own, where they may coincide: how
 // much of that is the start's. Less than 0 where nothing has been passed.
-static double passed_error(ShapeQuery *q, const Solid *solid)
+static double passed_error(ShapeQuery *q, const PreparedPrimitive *primitive)
 {
-    return starts_beside(q->table, q->start, solid) ? start_error(q) : -1.0;
+    return starts_beside(q->table, q->start, primitive) ? start_error(q) : -1.0;
 }
 
 static bool is_passed(double t, double error, double passed)
@@ -108,7 +109,7 @@ static void root_offer(ShapeQuery *q, uint32_t index, double t, double error, ui
 {
     double enter;
     if (item_enters(q, &enter)) {
-        solid_offer(q->table, index, q->ray, t, crossing_span(t, error, enter), side, leaves, first);
+        primitive_offer(q->table, index, q->ray, t, crossing_span(t, error, enter), side, leaves, first);
     }
 }
 

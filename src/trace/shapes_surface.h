@@ -1,4 +1,4 @@
-// Points and normals of the solids that some rays have met, a vector at a time: part of spheres_kernel.c.
+// Points and normals of the primitives that some rays have met, a vector at a time: part of spheres_kernel.c.
 //
 // Operations and their order are those of shapes_surface, so the bits are the same.
 //
@@ -6,9 +6,9 @@
 #ifndef TRACE_SHAPES_SURFACE_H
 #define TRACE_SHAPES_SURFACE_H
 
-#include "trace/solid_lanes_surface.h"
+#include "trace/primitive_lanes_surface.h"
 
-// The surfaces of one kind, a bit for each, where the solids stand in the table, and the sides of them.
+// The surfaces of one kind, a bit for each, where the primitives stand in the table, and the sides of them.
 typedef struct KindSurfaces {
     uint64_t own;
     _Alignas(64) int64_t index[TILE_RAYS], side[TILE_RAYS];
@@ -20,25 +20,26 @@ static unsigned surfaces_kinds(const ShapeTable *table, const TileSurfaces *surf
     unsigned kinds = 0;
     for (int i = 0; i < surfaces->count; i++) {
         ShapeId shape = surfaces->shape[i];
-        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PART) {
-            kinds |= 1u << table->solids[part_index(shape)].kind;
+        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PRIMITIVE) {
+            kinds |= 1u << table->primitives[primitive_index(shape)].kind;
         }
     }
     return kinds;
 }
 
 // What is of another kind has the place of one that is not.
-static void surfaces_of_kind(const ShapeTable *table, const TileSurfaces *surfaces, uint64_t asked, PartKind kind,
+static void surfaces_of_kind(const ShapeTable *table, const TileSurfaces *surfaces, uint64_t asked, PrimitiveKind kind,
                              KindSurfaces *of)
 {
     int64_t last = 0;
     of->own = 0;
     for (int i = 0; i < surfaces->count; i++) {
         ShapeId shape = surfaces->shape[i];
-        of->side[i] = part_side(shape);
-        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PART && table->solids[part_index(shape)].kind == kind) {
+        of->side[i] = primitive_side(shape);
+        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PRIMITIVE &&
+            table->primitives[primitive_index(shape)].kind == kind) {
             of->own |= UINT64_C(1) << i;
-            last = part_index(shape);
+            last = primitive_index(shape);
         }
         of->index[i] = last;
     }
@@ -50,7 +51,8 @@ static void surfaces_of_kind(const ShapeTable *table, const TileSurfaces *surfac
 
 // Fills in point and normal of those of one kind. Rays as of shapes_surfaces.
 RT_ALWAYS_INLINE void surfaces_fill(const ShapeTable *table, const double *const origin[3], unsigned apart,
-                                    const TileHits *hits, PartKind kind, const KindSurfaces *of, TileSurfaces *surfaces)
+                                    const TileHits *hits, PrimitiveKind kind, const KindSurfaces *of,
+                                    TileSurfaces *surfaces)
 {
     for (int at = 0; at < surfaces->count; at += DOUBLES) {
         unsigned own = of->own >> at & ((1u << DOUBLES) - 1);
@@ -66,8 +68,8 @@ RT_ALWAYS_INLINE void surfaces_fill(const ShapeTable *table, const double *const
             }
         }
         lanes_load(surfaces->direction, (unsigned)at, direction);
-        solids_surface(table->solids, kind, *(const DoublesMask *)&of->index[at], *(const DoublesMask *)&of->side[at],
-                       begin, direction, t, point, normal);
+        primitives_surface(table->primitives, kind, *(const DoublesMask *)&of->index[at],
+                           *(const DoublesMask *)&of->side[at], begin, direction, t, point, normal);
         for (int axis = 0; axis < 3; axis++) {
             double *points = &surfaces->point[axis][at], *normals = &surfaces->outward[axis][at];
             doubles_store(points, doubles_choose_bits(own, point[axis], doubles_load(points)));
@@ -76,7 +78,7 @@ RT_ALWAYS_INLINE void surfaces_fill(const ShapeTable *table, const double *const
     }
     for (uint64_t rest = of->own; rest; rest &= rest - 1) {
         int i = __builtin_ctzll(rest);
-        if (table->solids[of->index[i]].flips) {
+        if (table->primitives[of->index[i]].flips) {
             lane_set(surfaces->outward, (unsigned)i, vec3_neg(tile_surface_outward(surfaces, i)));
         }
     }
@@ -89,21 +91,30 @@ static uint64_t shapes_surfaces(const ShapeTable *table, const double *const ori
 {
     uint64_t done = 0;
     for (unsigned kinds = surfaces_kinds(table, surfaces, asked); kinds; kinds &= kinds - 1) {
-        PartKind kind = (PartKind)__builtin_ctz(kinds);
+        PrimitiveKind kind = (PrimitiveKind)__builtin_ctz(kinds);
         KindSurfaces of; // not cleared
-        if (!kind_has_lanes(kind) || kind == PART_POLYNOMIAL) {
+        if (!kind_has_lanes(kind) || kind == PRIMITIVE_POLYNOMIAL) {
             continue;
         }
         surfaces_of_kind(table, surfaces, asked, kind, &of);
         switch (kind) {
-        case PART_SPHERE: surfaces_fill(table, origin, apart, hits, PART_SPHERE, &of, surfaces); break;
-        case PART_BOX: surfaces_fill(table, origin, apart, hits, PART_BOX, &of, surfaces); break;
-        case PART_CONE: surfaces_fill(table, origin, apart, hits, PART_CONE, &of, surfaces); break;
-        case PART_TORUS: surfaces_fill(table, origin, apart, hits, PART_TORUS, &of, surfaces); break;
-        case PART_SMOOTH_TRIANGLE:
-            surfaces_fill(table, origin, apart, hits, PART_SMOOTH_TRIANGLE, &of, surfaces);
+        case PRIMITIVE_SPHERE:
+            surfaces_fill(table, origin, apart, hits, PRIMITIVE_SPHERE, &of, surfaces);
             break;
-        default: surfaces_fill(table, origin, apart, hits, PART_TRIANGLE, &of, surfaces); // a disc, too
+        case PRIMITIVE_BOX:
+            surfaces_fill(table, origin, apart, hits, PRIMITIVE_BOX, &of, surfaces);
+            break;
+        case PRIMITIVE_CONE:
+            surfaces_fill(table, origin, apart, hits, PRIMITIVE_CONE, &of, surfaces);
+            break;
+        case PRIMITIVE_TORUS:
+            surfaces_fill(table, origin, apart, hits, PRIMITIVE_TORUS, &of, surfaces);
+            break;
+        case PRIMITIVE_SMOOTH_TRIANGLE:
+            surfaces_fill(table, origin, apart, hits, PRIMITIVE_SMOOTH_TRIANGLE, &of, surfaces);
+            break;
+        default:
+            surfaces_fill(table, origin, apart, hits, PRIMITIVE_TRIANGLE, &of, surfaces); // a disc, too
         }
         done |= of.own;
     }

@@ -1,9 +1,9 @@
-// A tile of camera rays against parts that stand alone and composites: part of spheres_kernel.c.
+// A tile of camera rays against primitives that stand alone and composites: part of spheres_kernel.c.
 //
 // The tile walks the tree once, as a beam. Solids whose kind has a test in lanes are asked a vector of rays at a time,
 // and what is not decided with a margin is decided ray by ray, so hits are those of single rays. First a ball is asked
 // which rays may meet it: seen from their one origin it is a cone, with a margin far above rounding, so that none is
-// left out; other solids are asked which rows of rays they touch. All other shapes are gathered, and walked by each
+// left out; other primitives are asked which rows of rays they touch. All other shapes are gathered, and walked by each
 // ray.
 //
 // SPDX-License-Identifier: MIT
@@ -12,7 +12,7 @@
 
 #include "trace/cone_test.h"
 #include "trace/shapes_walk.h"
-#include "trace/solid_lanes_surface.h"
+#include "trace/primitive_lanes_surface.h"
 #include "trace/tile_planes.h"
 
 enum { SOLID_NONE = UINT32_MAX };
@@ -41,7 +41,7 @@ typedef struct BallView {
     double xx, xy, xz, yy, yz, zz, margin;
 } BallView;
 
-static void ball_view(const Solid *ball, Vec3 f, BallView *view)
+static void ball_view(const PreparedPrimitive *ball, Vec3 f, BallView *view)
 {
     const double(*m)[3] = ball->to_object.m;
     Vec3 x = vec3(m[0][0], m[0][1], m[0][2]), y = vec3(m[1][0], m[1][1], m[1][2]), z = vec3(m[2][0], m[2][1], m[2][2]);
@@ -87,7 +87,8 @@ static void tile_ray_take(ShapesTile *of, unsigned i, Ray *ray, ShapeQuery *q, F
 {
     ShapeId met = (ShapeId)of->shape[i];
     const TileForemost *all = of->first;
-    const Solid *part = met != SHAPE_NONE && shape_is_on_part(met) ? table_solid(of->table, met) : NULL;
+    const PreparedPrimitive *part =
+        met != SHAPE_NONE && shape_is_on_primitive(met) ? table_primitive(of->table, met) : NULL;
     *ray = (Ray){of->tile->origin, lane_get(of->tile->direction, i)};
     query_start(q, of->table, ray, RAY_START_CAMERA, 0.0, false);
     q->bounded = of->bounded >> i & 1 ? part : NULL;
@@ -120,7 +121,7 @@ static void tile_ray_put(ShapesTile *of, unsigned i, const ShapeQuery *q, const 
     of->first->beaten[i] = first->beaten;
 }
 
-// Brings the hit of a ray up to date with a solid, in its box, or with all items that have no test in lanes.
+// Brings the hit of a ray up to date with a primitive, in its box, or with all items that have no test in lanes.
 static void tile_ray(ShapesTile *of, unsigned i, uint32_t index, const ItemBox *box, const ShapeBeam *beam)
 {
     Ray ray;
@@ -129,7 +130,7 @@ static void tile_ray(ShapesTile *of, unsigned i, uint32_t index, const ItemBox *
     tile_ray_take(of, i, &ray, &q, &first);
     if (index != SOLID_NONE) {
         q.box = box;
-        solid_closest(&q, index, &first);
+        primitive_closest(&q, index, &first);
     } else {
         table_closest(&q, beam, &first);
     }
@@ -137,38 +138,40 @@ static void tile_ray(ShapesTile *of, unsigned i, uint32_t index, const ItemBox *
 }
 
 // A solid as seen from the tile's origin.
-typedef struct TileSolid {
-    LaneSolid solid;
+typedef struct TilePrimitive {
+    LanePrimitive solid;
     const ItemBox *box;
     Doubles f[3]; // the origin in its space
-} TileSolid;
+} TilePrimitive;
 
 // Makes some rays' roots the first ones.
-RT_ALWAYS_INLINE void tile_take_lanes(ShapesTile *of, const Solid *solid, PartKind kind, unsigned at, unsigned nearest,
-                                      const SolidLanes *lanes)
+RT_ALWAYS_INLINE void tile_take_lanes(ShapesTile *of, const PreparedPrimitive *primitive, PrimitiveKind kind,
+                                      unsigned at, unsigned nearest, const PrimitiveLanes *lanes)
 {
     DoublesMask *shape = (DoublesMask *)&of->shape[at];
-    DoublesMask met = ((DoublesMask){0} + part_shape((uint32_t)(solid - of->table->solids), 0)) | lanes->side;
-    bool flips = solid->flips && !solid_is_flat(solid);
+    DoublesMask met =
+        ((DoublesMask){0} + primitive_shape((uint32_t)(primitive - of->table->primitives), 0)) | lanes->side;
+    bool flips = primitive->flips && !primitive_is_flat(primitive);
     doubles_store(&of->hits->t[at], doubles_choose_bits(nearest, lanes->root, doubles_load(&of->hits->t[at])));
     *shape = (DoublesMask)doubles_choose_bits(nearest, (Doubles)met, (Doubles)*shape);
     lane_bits_set(&of->hits->met, at, nearest, ~0u);
     lane_bits_set(&of->bounded, at, nearest, ~0u);
-    lane_bits_set(&of->approximate, at, nearest, kind == PART_SPHERE ? ~0u : 0);
+    lane_bits_set(&of->approximate, at, nearest, kind == PRIMITIVE_SPHERE ? ~0u : 0);
     lane_bits_set(&of->first->torn, at, nearest, 0);
     lane_bits_set(&of->hits->inside, at, nearest, flips ? ~lanes->leaves : lanes->leaves);
 }
 
-// A vector of rays against a solid: what solid_closest does to each. What is nearest, or is not, with a margin is done
-// at once.
-RT_ALWAYS_INLINE void tile_solid_lanes(ShapesTile *of, const TileSolid *own, PartKind kind, unsigned at, unsigned asked)
+// A vector of rays against a primitive: what primitive_closest does to each. What is nearest, or is not, with a margin
+// is done at once.
+RT_ALWAYS_INLINE void tile_primitive_lanes(ShapesTile *of, const TilePrimitive *own, PrimitiveKind kind, unsigned at,
+                                           unsigned asked)
 {
-    const Solid *solid = own->solid.solid;
-    SolidLanes lanes;
+    const PreparedPrimitive *primitive = own->solid.solid;
+    PrimitiveLanes lanes;
     Doubles direction[3], d[3];
     lanes_load(of->tile->direction, at, direction);
     linears_direction(&own->solid.to_object, direction, d);
-    if (!solid_lanes(&own->solid, kind, own->f, d, direction, asked, &lanes)) {
+    if (!primitive_lanes(&own->solid, kind, own->f, d, direction, asked, &lanes)) {
         return;
     }
     TileForemost *all = of->first;
@@ -188,10 +191,11 @@ RT_ALWAYS_INLINE void tile_solid_lanes(ShapesTile *of, const TileSolid *own, Par
         doubles_store(&of->enter[at], doubles_choose_bits(nearest, enter, doubles_load(&of->enter[at])));
     }
     if (nearest) {
-        tile_take_lanes(of, solid, kind, at, nearest, &lanes);
+        tile_take_lanes(of, primitive, kind, at, nearest, &lanes);
     }
     for (other &= ~nearest; RT_UNLIKELY(other); other &= other - 1) {
-        tile_ray(of, at + (unsigned)__builtin_ctz(other), (uint32_t)(solid - of->table->solids), own->box, NULL);
+        tile_ray(of, at + (unsigned)__builtin_ctz(other), (uint32_t)(primitive - of->table->primitives), own->box,
+                 NULL);
     }
 }
 
@@ -206,46 +210,61 @@ static uint64_t tile_open_rays(const TileForemost *first, double nearest)
 }
 
 // `may` are the rays that are asked.
-RT_ALWAYS_INLINE void tile_solid_kind(ShapesTile *of, const Solid *solid, PartKind kind, const ItemBox *box,
-                                      uint64_t may)
+RT_ALWAYS_INLINE void tile_primitive_kind(ShapesTile *of, const PreparedPrimitive *primitive, PrimitiveKind kind,
+                                          const ItemBox *box, uint64_t may)
 {
-    Vec3 offset = vec3_sub(of->tile->origin, solid->centre), f = linear_direction(&solid->to_object, offset);
-    if (kind == PART_SPHERE) {
+    Vec3 offset = vec3_sub(of->tile->origin, primitive->centre), f = linear_direction(&primitive->to_object, offset);
+    if (kind == PRIMITIVE_SPHERE) {
         BallView view;
-        ball_view(solid, f, &view);
+        ball_view(primitive, f, &view);
         may &= ball_view_rays(&view, of->tile);
     } else {
-        may &= rows_rays(solid_rows(&of->planes, of->tile, solid, kind, vec3_neg(offset)));
+        may &= rows_rays(primitive_rows(&of->planes, of->tile, primitive, kind, vec3_neg(offset)));
     }
     if (!may) {
         return;
     }
-    TileSolid own = {.box = box, .f = {doubles_splat(f.x), doubles_splat(f.y), doubles_splat(f.z)}};
-    lane_solid_set(&own.solid, solid, of->far);
+    TilePrimitive own = {.box = box, .f = {doubles_splat(f.x), doubles_splat(f.y), doubles_splat(f.z)}};
+    lane_primitive_set(&own.solid, primitive, of->far);
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
         unsigned asked = may >> at & ((1u << DOUBLES) - 1);
         if (asked) {
-            tile_solid_lanes(of, &own, kind, at, asked);
+            tile_primitive_lanes(of, &own, kind, at, asked);
         }
     }
 }
 
 // No ray meets the box before `nearest`.
-static void tile_solid(ShapesTile *of, const Solid *solid, const ItemBox *box, double nearest)
+static void tile_primitive(ShapesTile *of, const PreparedPrimitive *primitive, const ItemBox *box, double nearest)
 {
     uint64_t may = tile_open_rays(of->first, nearest);
-    if ((solid->hidden & HIDDEN_CAMERA) || !may) {
+    if ((primitive->hidden & HIDDEN_CAMERA) || !may) {
         return;
     }
-    switch (solid->kind) {
-    case PART_SPHERE: tile_solid_kind(of, solid, PART_SPHERE, box, may); break;
-    case PART_BOX: tile_solid_kind(of, solid, PART_BOX, box, may); break;
-    case PART_CONE: tile_solid_kind(of, solid, PART_CONE, box, may); break;
-    case PART_DISC: tile_solid_kind(of, solid, PART_DISC, box, may); break;
-    case PART_TRIANGLE: tile_solid_kind(of, solid, PART_TRIANGLE, box, may); break;
-    case PART_TORUS: tile_solid_kind(of, solid, PART_TORUS, box, may); break;
-    case PART_POLYNOMIAL: tile_solid_kind(of, solid, PART_POLYNOMIAL, box, may); break;
-    default: tile_solid_kind(of, solid, PART_SMOOTH_TRIANGLE, box, may);
+    switch (primitive->kind) {
+    case PRIMITIVE_SPHERE:
+        tile_primitive_kind(of, primitive, PRIMITIVE_SPHERE, box, may);
+        break;
+    case PRIMITIVE_BOX:
+        tile_primitive_kind(of, primitive, PRIMITIVE_BOX, box, may);
+        break;
+    case PRIMITIVE_CONE:
+        tile_primitive_kind(of, primitive, PRIMITIVE_CONE, box, may);
+        break;
+    case PRIMITIVE_DISC:
+        tile_primitive_kind(of, primitive, PRIMITIVE_DISC, box, may);
+        break;
+    case PRIMITIVE_TRIANGLE:
+        tile_primitive_kind(of, primitive, PRIMITIVE_TRIANGLE, box, may);
+        break;
+    case PRIMITIVE_TORUS:
+        tile_primitive_kind(of, primitive, PRIMITIVE_TORUS, box, may);
+        break;
+    case PRIMITIVE_POLYNOMIAL:
+        tile_primitive_kind(of, primitive, PRIMITIVE_POLYNOMIAL, box, may);
+        break;
+    default:
+        tile_primitive_kind(of, primitive, PRIMITIVE_SMOOTH_TRIANGLE, box, may);
     }
 }
 
@@ -279,20 +298,20 @@ static bool beam_add(ShapeBeam *beam, const BvhNode *from, unsigned child)
     return true;
 }
 
-// Fetches a solid, which has to wait, into the cache.
+// Fetches a primitive, which has to wait, into the cache.
 RT_ALWAYS_INLINE void tile_expect(const ShapesTile *of, bool is_solid, ShapeItem item)
 {
-    const char *from = (const char *)&of->table->solids[item_index(item)];
+    const char *from = (const char *)&of->table->primitives[item_index(item)];
     if (is_solid) {
 #pragma GCC unroll 8
-        for (size_t line = 0; line < sizeof(Solid); line += 64) {
+        for (size_t line = 0; line < sizeof(PreparedPrimitive); line += 64) {
             __builtin_prefetch(from + line);
         }
     }
 }
 
-// One walk, near things first: asks the solids that have lanes, and gathers what else there is. False when that is too
-// much.
+// One walk, near things first: asks the primitives that have lanes, and gathers what else there is. False when that is
+// too much.
 static bool tile_walk(ShapesTile *of, BvhWalk *walk)
 {
     const ShapeItem *items = of->table->items + of->table->unbounded_count;
@@ -306,7 +325,7 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
         if (child & BVH_LEAF) {
             uint32_t at = bvh_leaf_first(child);
             double nearest = bvh_walk_parameter(walk, key);
-            tile_solid(of, &of->table->solids[item_index(items[at])], &of->table->boxes[at], nearest);
+            tile_primitive(of, &of->table->primitives[item_index(items[at])], &of->table->boxes[at], nearest);
             of->limit = !~of->hits->met ? tile_limit(of->first) : of->limit;
             continue;
         }
@@ -356,7 +375,7 @@ static bool tile_tree(ShapesTile *of)
 // Refines what is approximate, a vector at a time.
 static void tile_refine_roots(ShapesTile *of)
 {
-    const Solid *solids = of->table->solids;
+    const PreparedPrimitive *primitives = of->table->primitives;
     Vec3 eye = of->tile->origin;
     const Doubles origin[3] = {doubles_splat(eye.x), doubles_splat(eye.y), doubles_splat(eye.z)};
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
@@ -368,12 +387,13 @@ static void tile_refine_roots(ShapesTile *of)
         DoublesMask shape = *(const DoublesMask *)&of->shape[at], is_approximate = doubles_bits_mask(approximate);
         shape = (is_approximate & shape) | (~is_approximate & shape[__builtin_ctz(approximate)]);
         lanes_load(of->tile->direction, at, direction);
-        unsigned certain = balls_refine(solids, parts_index(shape), origin, direction, &root);
+        unsigned certain = balls_refine(primitives, parts_index(shape), origin, direction, &root);
         doubles_store(&of->hits->t[at], doubles_choose(is_approximate, root, before));
         for (approximate &= ~certain; RT_UNLIKELY(approximate); approximate &= approximate - 1) {
             unsigned i = (unsigned)__builtin_ctz(approximate);
             Ray ray = {eye, lane_get(of->tile->direction, at + i)};
-            of->hits->t[at + i] = ball_refine(&solids[part_index((ShapeId)of->shape[at + i])], &ray, before[i]);
+            of->hits->t[at + i] =
+                ball_refine(&primitives[primitive_index((ShapeId)of->shape[at + i])], &ray, before[i]);
         }
     }
 }

@@ -1,5 +1,5 @@
-// Queries over parts that stand alone and composites: part of spheres_kernel.c. The tree of their boxes is walked near
-// child first.
+// Queries over primitives that stand alone and composites: part of spheres_kernel.c. The tree of their boxes is walked
+// near child first.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_WALK_H
@@ -7,19 +7,19 @@
 
 #include "trace/bvh_walk.h"
 #include "trace/shapes_query.h"
-#include "trace/solid_lanes.h"
+#include "trace/primitive_lanes.h"
 
-// ---- one solid
+// ---- one primitive
 
 static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
     double t;
-    if (!solid_flat_root(solid, object, &t) || !(t > 0.0)) {
+    if (!primitive_flat_root(primitive, object, &t) || !(t > 0.0)) {
         return;
     }
-    double error = solid_crossing_error(solid, q->ray, object, t, 0);
-    if (!is_passed(t, error, passed_error(q, solid))) {
+    double error = primitive_crossing_error(primitive, q->ray, object, t, 0);
+    if (!is_passed(t, error, passed_error(q, primitive))) {
         root_offer(q, index, t, error, 0, false, first);
     }
 }
@@ -27,15 +27,16 @@ static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Forem
 // ---- a curve, whose first root the test in lanes tells; see curve_lanes.h
 
 // The same for one ray: whether it is told, and then where it is; `along` as in CurveFirst. *is_missed: for certain.
-static __attribute__((noinline)) bool curve_first(const Solid *solid, const Ray *object, double *t, double *along,
-                                                  bool *is_missed)
+static __attribute__((noinline)) bool curve_first(const PreparedPrimitive *primitive, const Ray *object, double *t,
+                                                  double *along, bool *is_missed)
 {
     Vec3 o = object->origin, v = object->direction;
     const Doubles f[3] = {doubles_splat(o.x), doubles_splat(o.y), doubles_splat(o.z)};
     const Doubles d[3] = {doubles_splat(v.x), doubles_splat(v.y), doubles_splat(v.z)};
     CurveFirst first;
-    *is_missed = solid->kind == PART_TORUS ? !curve_lanes_first(solid, PART_TORUS, false, f, d, 1, &first)
-                                           : !curve_lanes_first(solid, PART_POLYNOMIAL, false, f, d, 1, &first);
+    *is_missed = primitive->kind == PRIMITIVE_TORUS
+                     ? !curve_lanes_first(primitive, PRIMITIVE_TORUS, false, f, d, 1, &first)
+                     : !curve_lanes_first(primitive, PRIMITIVE_POLYNOMIAL, false, f, d, 1, &first);
     if (*is_missed || !(first.certain & 1)) {
         return false;
     }
@@ -45,12 +46,12 @@ static __attribute__((noinline)) bool curve_first(const Solid *solid, const Ray 
 }
 
 // All intervals, the root that is told in its place.
-static unsigned curve_intervals(const Solid *solid, const Ray *object, RayInterval *intervals)
+static unsigned curve_intervals(const PreparedPrimitive *primitive, const Ray *object, RayInterval *intervals)
 {
     double t, along;
     bool is_missed;
-    unsigned count = solid_intervals(solid, object, LEFT_NONE, intervals), nearest = 0;
-    if (count > 0 && curve_first(solid, object, &t, &along, &is_missed)) {
+    unsigned count = primitive_intervals(primitive, object, LEFT_NONE, intervals), nearest = 0;
+    if (count > 0 && curve_first(primitive, object, &t, &along, &is_missed)) {
         for (unsigned i = 1; i < count; i++) {
             nearest = fabs(intervals[i].enter - t) < fabs(intervals[nearest].enter - t) ? i : nearest;
         }
@@ -59,39 +60,40 @@ static unsigned curve_intervals(const Solid *solid, const Ray *object, RayInterv
     return count;
 }
 
-static double curve_error(const ShapeQuery *q, const Solid *solid, const Ray *object, double t)
+static double curve_error(const ShapeQuery *q, const PreparedPrimitive *primitive, const Ray *object, double t)
 {
-    RayInterval intervals[solid->interval_most];
-    unsigned count = curve_intervals(solid, object, intervals), i = 0;
+    RayInterval intervals[primitive->interval_most];
+    unsigned count = curve_intervals(primitive, object, intervals), i = 0;
     while (i + 1 < count && intervals[i].enter != t) {
         i++;
     }
     double room = count > 0 ? interval_room(intervals, count, i) : (double)INFINITY;
-    return solid_end_error(solid, q->ray, object, t, 0, room);
+    return primitive_end_error(primitive, q->ray, object, t, 0, room);
 }
 
 // The error of a first hit of which only a bound is known. What is not a ball the ray does not start on.
 static double bounded_error(const ShapeQuery *q, const Ray *object, const Hit *hit)
 {
-    const Solid *solid = q->bounded;
+    const PreparedPrimitive *primitive = q->bounded;
     RayInterval interval;
-    if (solid->kind == PART_SPHERE) {
-        return solid_ball_error(solid, q->ray, object, hit->t);
+    if (primitive->kind == PRIMITIVE_SPHERE) {
+        return primitive_ball_error(primitive, q->ray, object, hit->t);
     }
-    if (solid_is_flat(solid)) {
-        return solid_crossing_error(solid, q->ray, object, hit->t, 0);
+    if (primitive_is_flat(primitive)) {
+        return primitive_crossing_error(primitive, q->ray, object, hit->t, 0);
     }
-    if (solid_is_curve(solid)) {
-        return curve_error(q, solid, object, hit->t);
+    if (primitive_is_curve(primitive)) {
+        return curve_error(q, primitive, object, hit->t);
     }
-    (void)solid_intervals(solid, object, LEFT_NONE, &interval);
-    return solid_end_error(solid, q->ray, object, hit->t, part_side(hit->shape), interval.leave - interval.enter);
+    (void)primitive_intervals(primitive, object, LEFT_NONE, &interval);
+    return primitive_end_error(primitive, q->ray, object, hit->t, primitive_side(hit->shape),
+                               interval.leave - interval.enter);
 }
 
 static void span_refine(ShapeQuery *q, Foremost *first)
 {
     if (q->bounded) {
-        Ray object = solid_ray(q->bounded, q->ray);
+        Ray object = primitive_ray(q->bounded, q->ray);
         double error = bounded_error(q, &object, &first->hit);
         RootSpan span = crossing_span(first->hit.t, error, q->bounded_enter);
         first->from = span.from;
@@ -101,10 +103,10 @@ static void span_refine(ShapeQuery *q, Foremost *first)
 }
 
 // Refines an approximate root of a ball.
-static double ball_refine(const Solid *solid, const Ray *world, double t)
+static double ball_refine(const PreparedPrimitive *primitive, const Ray *world, double t)
 {
     const SphereData unit = UNIT_SPHERE;
-    Ray object = solid_ray(solid, world);
+    Ray object = primitive_ray(primitive, world);
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     return sphere_refine(&ray, &unit, t);
 }
@@ -113,13 +115,13 @@ static double ball_refine(const Solid *solid, const Ray *world, double t)
 static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const SphereRay *ray, double t, bool leaves,
                        double passed, Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
     const SphereData unit = UNIT_SPHERE;
     span_refine(q, first);
-    double error = solid_ball_error(solid, q->ray, object, t);
+    double error = primitive_ball_error(primitive, q->ray, object, t);
     if (is_passed(t, error, passed)) {
         t = leaves ? 0.0 : sphere_root_inward(ray, &unit);
-        error = solid_ball_error(solid, q->ray, object, t);
+        error = primitive_ball_error(primitive, q->ray, object, t);
         leaves = true;
         if (is_passed(t, error, passed)) {
             return;
@@ -128,22 +130,22 @@ static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const S
     root_offer(q, index, t, error, 0, leaves, first);
 }
 
-// Takes a solid, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
+// Takes a primitive, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
 // asks. True when it was.
-static bool solid_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
-                           Foremost *first)
+static bool primitive_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
+                               Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
     double to = t + bound < enter ? enter : t + bound;
     if (!(to < first->from && to < first->beaten && to < first->limit)) {
         return false;
     }
-    first->hit = (Hit){t, part_shape(index, 0), leaves != solid->flips};
-    first->order = solid->order;
+    first->hit = (Hit){t, primitive_shape(index, 0), leaves != primitive->flips};
+    first->order = primitive->order;
     first->is_torn = false;
     first->from = t - bound < enter ? enter : t - bound;
     first->limit = to;
-    q->bounded = solid;
+    q->bounded = primitive;
     q->bounded_enter = enter;
     return true;
 }
@@ -153,9 +155,9 @@ static bool solid_is_first(ShapeQuery *q, uint32_t index, double t, double bound
 // bits: nearly always that is enough.
 static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
     const SphereData unit = UNIT_SPHERE;
-    Ray object = solid_ray(solid, q->ray);
+    Ray object = primitive_ray(primitive, q->ray);
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     bool leaves;
     double t, enter;
@@ -166,7 +168,7 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     if (verdict == SPHERE_UNCERTAIN) {
         t = sphere_exact(&ray, &unit, NULL, &leaves);
         if (t > 0.0) {
-            ball_offer(q, index, &object, &ray, t, leaves, passed_error(q, solid), first);
+            ball_offer(q, index, &object, &ray, t, leaves, passed_error(q, primitive), first);
         }
         return;
     }
@@ -174,9 +176,9 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     if (t - bound > first->limit || !item_enters(q, &enter) || enter > first->limit) {
         return;
     }
-    double passed = passed_error(q, solid);
+    double passed = passed_error(q, primitive);
     double root = q->is_any ? t : sphere_refine(&ray, &unit, t); // near the ends of the range the bound is not that of t
-    if (!is_passed(root, bound, passed) && solid_is_first(q, index, root, bound, leaves, enter, first)) {
+    if (!is_passed(root, bound, passed) && primitive_is_first(q, index, root, bound, leaves, enter, first)) {
         return;
     }
     root = q->is_any ? sphere_refine(&ray, &unit, t) : root;
@@ -186,25 +188,26 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 // A curve that the ray does not start on. False: several_closest is to be asked.
 static bool curve_closest(ShapeQuery *q, uint32_t index, const Ray *object, Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
     double t, along, enter;
     bool is_missed;
-    if (!curve_first(solid, object, &t, &along, &is_missed)) {
+    if (!curve_first(primitive, object, &t, &along, &is_missed)) {
         return is_missed;
     }
-    LaneSlack slack = lane_slack(solid, vec3_length(q->ray->origin));
+    LaneSlack slack = lane_slack(primitive, vec3_length(q->ray->origin));
     double bound = (slack.fixed + slack.slope * t) / along;
     if (t - bound > first->limit || !item_enters(q, &enter) || enter > first->limit) {
         return true;
     }
-    return !is_passed(t, bound, passed_error(q, solid)) && solid_is_first(q, index, t, bound, false, enter, first);
+    return !is_passed(t, bound, passed_error(q, primitive)) &&
+           primitive_is_first(q, index, t, bound, false, enter, first);
 }
 
 // A ball that the ray goes into where it starts.
 static void ball_closest_inward(ShapeQuery *q, uint32_t index, Foremost *first)
 {
     const SphereData unit = UNIT_SPHERE;
-    Ray object = solid_ray(&q->table->solids[index], q->ray);
+    Ray object = primitive_ray(&q->table->primitives[index], q->ray);
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     double t = sphere_root_inward(&ray, &unit);
     if (t > 0.0) {
@@ -226,15 +229,15 @@ static bool end_is_met(ShapeQuery *q, double to, const Foremost *first)
 RT_ALWAYS_INLINE bool end_offer(ShapeQuery *q, uint32_t index, const Ray *object, double t, uint8_t side, bool leaves,
                                 double room, double passed, Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
-    if (!(t > 0.0) || solid_side_is_unseen(solid, side)) {
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
+    if (!(t > 0.0) || primitive_side_is_unseen(primitive, side)) {
         return false;
     }
     if (!leaves && q->is_any && passed < 0.0 && end_is_met(q, t + 2.0 * room, first)) {
-        first->hit.shape = part_shape(index, side); // whatever its error is
+        first->hit.shape = primitive_shape(index, side); // whatever its error is
         return true;
     }
-    double error = solid_end_error(solid, q->ray, object, t, side, room);
+    double error = primitive_end_error(primitive, q->ray, object, t, side, room);
     if (is_passed(t, error, passed)) {
         return false;
     }
@@ -242,7 +245,8 @@ RT_ALWAYS_INLINE bool end_offer(ShapeQuery *q, uint32_t index, const Ray *object
     return true;
 }
 
-// The first end of an interval that the ray has not passed; where it starts on the solid, what it starts in it leaves.
+// The first end of an interval that the ray has not passed; where it starts on the primitive, what it starts in it
+// leaves.
 RT_ALWAYS_INLINE void interval_offer(ShapeQuery *q, uint32_t index, const Ray *object, const RayInterval *interval,
                                      double room, bool is_film, bool is_inside, double passed, Foremost *first)
 {
@@ -254,23 +258,24 @@ RT_ALWAYS_INLINE void interval_offer(ShapeQuery *q, uint32_t index, const Ray *o
     (void)end_offer(q, index, object, interval->leave, interval->leave_side, !is_film, room, passed, first);
 }
 
-// A solid that is not convex.
+// A primitive that is not convex.
 static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t index, const Ray *object, SideLeft left,
                                                       Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
-    RayInterval intervals[solid->interval_most];
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
+    RayInterval intervals[primitive->interval_most];
     if (shapes_are_abandoned(q->table)) {
         return; // a line through a polynomial takes up to a millisecond
     }
-    bool is_told = left.side == SIDE_NONE && solid_is_curve(solid);
-    unsigned count = is_told ? curve_intervals(solid, object, intervals) : solid_intervals(solid, object, left, intervals);
+    bool is_told = left.side == SIDE_NONE && primitive_is_curve(primitive);
+    unsigned count = is_told ? curve_intervals(primitive, object, intervals)
+                             : primitive_intervals(primitive, object, left, intervals);
     if (count == 0) {
         return;
     }
-    double passed = left.side != SIDE_NONE ? -1.0 : passed_error(q, solid);
+    double passed = left.side != SIDE_NONE ? -1.0 : passed_error(q, primitive);
     for (unsigned i = 0; i < count; i++) {
-        bool is_film = solid_is_film(solid, intervals[i].leave_side);
+        bool is_film = primitive_is_film(primitive, intervals[i].leave_side);
         interval_offer(q, index, object, &intervals[i], interval_room(intervals, count, i), is_film, false, passed,
                        first);
     }
@@ -278,13 +283,13 @@ static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t in
 
 RT_ALWAYS_INLINE void convex_closest(ShapeQuery *q, uint32_t index, const Ray *object, SideLeft left, Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
     RayInterval interval;
-    if (solid_intervals(solid, object, left, &interval) == 0) {
+    if (primitive_intervals(primitive, object, left, &interval) == 0) {
         return;
     }
     bool is_start = left.side != SIDE_NONE;
-    double passed = is_start ? -1.0 : passed_error(q, solid);
+    double passed = is_start ? -1.0 : passed_error(q, primitive);
     interval_offer(q, index, object, &interval, interval.leave - interval.enter, false, is_start, passed, first);
 }
 
@@ -294,29 +299,31 @@ RT_ALWAYS_INLINE void convex_closest(ShapeQuery *q, uint32_t index, const Ray *o
 // How far a face may be behind the limit at which it still counts, see MESH_ERROR_MOST.
 #define MESH_BEYOND (1.0 + 2.0 * MESH_ERROR_MOST)
 
-static bool face_is_passed(ShapeQuery *q, const Solid *solid, const Ray *object, double t, uint32_t face, double passed)
+static bool face_is_passed(ShapeQuery *q, const PreparedPrimitive *primitive, const Ray *object, double t,
+                           uint32_t face, double passed)
 {
-    return passed >= 0.0 && is_passed(t, mesh_crossing_error(solid, q->ray, object, t, face), passed);
+    return passed >= 0.0 && is_passed(t, mesh_crossing_error(primitive, q->ray, object, t, face), passed);
 }
 
-static void face_found(ShapeQuery *q, const Solid *solid, const Ray *object, double t, uint32_t face, Foremost *first)
+static void face_found(ShapeQuery *q, const PreparedPrimitive *primitive, const Ray *object, double t, uint32_t face,
+                       Foremost *first)
 {
     double enter;
     if (item_enters(q, &enter)) {
-        RootSpan span = crossing_span(t, mesh_crossing_error(solid, q->ray, object, t, face), enter);
-        face_offer(q->table, shape_id(SHAPE_FACE, solid->mesh.first_face + face), q->ray, t, span, first);
+        RootSpan span = crossing_span(t, mesh_crossing_error(primitive, q->ray, object, t, face), enter);
+        face_offer(q->table, shape_id(SHAPE_FACE, primitive->mesh.first_face + face), q->ray, t, span, first);
     }
 }
 
 static __attribute__((noinline)) void mesh_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
-    const MeshTable *table = solid->mesh.table;
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
+    const MeshTable *table = primitive->mesh.table;
     uint32_t left = q->start.shape != SHAPE_NONE && shape_kind(q->start.shape) == SHAPE_FACE
-                        ? shape_index(q->start.shape) - solid->mesh.first_face
+                        ? shape_index(q->start.shape) - primitive->mesh.first_face
                         : MESH_NO_FACE;
-    Ray object = solid_ray(solid, q->ray);
-    double passed = passed_error(q, solid);
+    Ray object = primitive_ray(primitive, q->ray);
+    double passed = passed_error(q, primitive);
     MeshQuery query;
     BvhWalk walk;
     BvhChild leaf;
@@ -333,13 +340,12 @@ static __attribute__((noinline)) void mesh_closest(ShapeQuery *q, uint32_t index
             MeshPoint at;
             uint32_t face = table->faces[i];
             if (!mesh_ray_crosses(&query.shear, table->mesh, face, &at) || !(at.t > 0.0) || face == left ||
-                !(at.t < nearest || (at.t == nearest && face < found)) ||
-                !mesh_shows(table, &query.ray, at.t, face) ||
-                face_is_passed(q, solid, &object, at.t / query.length, face, passed)) {
+                !(at.t < nearest || (at.t == nearest && face < found)) || !mesh_shows(table, &query.ray, at.t, face) ||
+                face_is_passed(q, primitive, &object, at.t / query.length, face, passed)) {
                 continue;
             }
             if (q->is_any) {
-                face_found(q, solid, &object, at.t / query.length, face, first);
+                face_found(q, primitive, &object, at.t / query.length, face, first);
                 if (first->hit.shape != SHAPE_NONE) {
                     return;
                 }
@@ -350,42 +356,42 @@ static __attribute__((noinline)) void mesh_closest(ShapeQuery *q, uint32_t index
         }
     }
     if (found != MESH_NO_FACE) {
-        face_found(q, solid, &object, nearest / query.length, found, first);
+        face_found(q, primitive, &object, nearest / query.length, found, first);
     }
 }
 
-// ---- any solid
+// ---- any primitive
 
-// A solid alone. Outward from itself, one that is convex or flat is not met again.
-static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
+// A primitive alone. Outward from itself, one that is convex or flat is not met again.
+static void primitive_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
-    const Solid *solid = &q->table->solids[index];
-    if (solid->hidden & q->start.use) {
+    const PreparedPrimitive *primitive = &q->table->primitives[index];
+    if (primitive->hidden & q->start.use) {
         return;
     }
-    if (RT_UNLIKELY(solid_is_mesh(solid))) {
+    if (RT_UNLIKELY(primitive_is_mesh(primitive))) {
         mesh_closest(q, index, first);
         return;
     }
-    bool is_start = q->left && solid_equal(q->left, solid);
-    bool inward = q->start.inward != solid->flips;
-    if (is_start && ((!inward && solid_is_convex(solid)) || solid_is_flat(solid))) {
+    bool is_start = q->left && primitive_equal(q->left, primitive);
+    bool inward = q->start.inward != primitive->flips;
+    if (is_start && ((!inward && primitive_is_convex(primitive)) || primitive_is_flat(primitive))) {
         return;
     }
-    if (solid->kind == PART_SPHERE) {
+    if (primitive->kind == PRIMITIVE_SPHERE) {
         (is_start ? ball_closest_inward : ball_closest)(q, index, first);
         return;
     }
-    Ray object = solid_ray(solid, q->ray);
-    if (!is_start && solid_is_curve(solid) && curve_closest(q, index, &object, first)) {
+    Ray object = primitive_ray(primitive, q->ray);
+    if (!is_start && primitive_is_curve(primitive) && curve_closest(q, index, &object, first)) {
         return;
     }
     span_refine(q, first);
-    if (solid_is_flat(solid)) {
+    if (primitive_is_flat(primitive)) {
         flat_closest(q, index, &object, first);
     } else {
-        SideLeft left = {is_start ? part_side(q->start.shape) : SIDE_NONE, inward};
-        if (RT_LIKELY(solid_is_convex(solid))) {
+        SideLeft left = {is_start ? primitive_side(q->start.shape) : SIDE_NONE, inward};
+        if (RT_LIKELY(primitive_is_convex(primitive))) {
             convex_closest(q, index, &object, left, first);
         } else {
             several_closest(q, index, &object, left, first);
@@ -401,15 +407,15 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
     const ShapeTable *table = q->table;
     uint32_t index = item_index(item);
     double enter;
-    if (index < table->solid_count) {
-        solid_closest(q, index, first);
+    if (index < table->primitive_count) {
+        primitive_closest(q, index, first);
     } else if (shapes_are_abandoned(table)) {
-        return; // one ray may cross 10^5 parts
-    } else if (RT_UNLIKELY(index - table->solid_count >= table->csg_count)) {
-        cluster_closest(q, &table->clusters[index - table->solid_count - table->csg_count], first);
+        return; // one ray may cross 10^5 primitives
+    } else if (RT_UNLIKELY(index - table->primitive_count >= table->csg_count)) {
+        cluster_closest(q, &table->clusters[index - table->primitive_count - table->csg_count], first);
     } else if (item_enters(q, &enter) && enter <= first->limit) {
         span_refine(q, first);
-        csg_closest(table, &table->csg_trees[index - table->solid_count], q->ray, q->start, start_error(q), enter,
+        csg_closest(table, &table->csg_trees[index - table->primitive_count], q->ray, q->start, start_error(q), enter,
                     first);
     }
 }
@@ -487,7 +493,7 @@ static void query_start(ShapeQuery *q, const ShapeTable *table, const Ray *ray, 
     q->ray = ray;
     q->start = start;
     q->start_error = start_error;
-    q->left = starts_on_part(start) ? table_solid(table, start.shape) : NULL;
+    q->left = starts_on_primitive(start) ? table_primitive(table, start.shape) : NULL;
     q->is_any = is_any;
     q->bounded = NULL;
     q->box = NULL;

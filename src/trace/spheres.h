@@ -84,7 +84,7 @@ typedef struct TileForemost {
     uint64_t torn;
     _Alignas(64) double from[TILE_RAYS];
     double limit[TILE_RAYS], beaten[TILE_RAYS];
-    uint32_t order[TILE_RAYS]; // of shapes that are no parts
+    uint32_t order[TILE_RAYS]; // of shapes that are no primitives
 } TileForemost;
 
 // The surfaces that some rays of a tile have met, one after the other.
@@ -186,7 +186,7 @@ typedef struct SphereKernels {
     bool (*view_passes)(const SphereTable *table, const TileView *view, const double u[TILE_RAYS],
                         const double v[TILE_RAYS]);
     // Offers what the ray meets of all other shapes. `start_error`: how far along the ray its start may be off the
-    // surface that it starts on; less than 0: not known, and that is a part.
+    // surface that it starts on; less than 0: not known, and that is a primitive.
     void (*shapes_closest)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error,
                            Foremost *first);
     // The same for all rays of a tile, of the camera.

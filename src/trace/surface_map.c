@@ -29,14 +29,14 @@ static Vec3 of_sphere(Vec3 p)
     return uv(turn_of(p), 0.5 + 2.0 * asin(fmax(-1.0, fmin(sine, 1.0))) / two_pi);
 }
 
-static Vec3 of_torus(const Solid *torus, Vec3 p)
+static Vec3 of_torus(const PreparedPrimitive *torus, Vec3 p)
 {
     double turn = 0.5 - (p.x == 0.0 && p.z == 0.0 ? 0.0 : atan2(p.z, p.x) / two_pi);
     return uv(turn, 0.5 + atan2(p.y, hypot(p.x, p.z) - torus->data[0].x) / two_pi);
 }
 
 // A box unfolded: four sides in a row, lids above and below the second one; a square is 1/4 wide and 1/3 high.
-static Vec3 of_box(const Solid *box, Vec3 p, uint8_t side)
+static Vec3 of_box(const PreparedPrimitive *box, Vec3 p, uint8_t side)
 {
     Vec3 low = box->data[0], size = vec3_sub(box->data[1], low);
     double x = size.x > 0.0 ? (p.x - low.x) / size.x : 0.0, y = size.y > 0.0 ? (p.y - low.y) / size.y : 0.0;
@@ -51,15 +51,20 @@ static Vec3 of_box(const Solid *box, Vec3 p, uint8_t side)
     }
 }
 
-static Vec3 of_part(const Solid *solid, Vec3 point, uint8_t side, Vec3 place)
+static Vec3 of_part(const PreparedPrimitive *primitive, Vec3 point, uint8_t side, Vec3 place)
 {
-    Vec3 own = linear_direction(&solid->to_object, vec3_sub(point, solid->centre));
-    switch ((PartKind)solid->kind) {
-    case PART_SPHERE: return of_sphere(own);
-    case PART_BOX: return of_box(solid, own, side);
-    case PART_TORUS: return of_torus(solid, own);
-    case PART_LATHE: return uv(turn_of(own), lathe_along(&solid->list, own));
-    case PART_SOR: return uv(turn_of(own), sor_along(&solid->list, own, side));
+    Vec3 own = linear_direction(&primitive->to_object, vec3_sub(point, primitive->centre));
+    switch ((PrimitiveKind)primitive->kind) {
+    case PRIMITIVE_SPHERE:
+        return of_sphere(own);
+    case PRIMITIVE_BOX:
+        return of_box(primitive, own, side);
+    case PRIMITIVE_TORUS:
+        return of_torus(primitive, own);
+    case PRIMITIVE_LATHE:
+        return uv(turn_of(own), lathe_along(&primitive->list, own));
+    case PRIMITIVE_SOR:
+        return uv(turn_of(own), sor_along(&primitive->list, own, side));
     default: return place;
     }
 }
@@ -76,14 +81,14 @@ static void weigh(const Mesh *mesh, uint32_t face, Vec3 p, double weights[3])
     weights[0] = 1.0 - weights[1] - weights[2];
 }
 
-static Vec3 of_face(const Solid *solid, uint32_t face, Vec3 point)
+static Vec3 of_face(const PreparedPrimitive *primitive, uint32_t face, Vec3 point)
 {
-    const Mesh *mesh = solid->mesh.table->mesh;
+    const Mesh *mesh = primitive->mesh.table->mesh;
     double weights[3], sum[2] = {0.0, 0.0};
     if (!mesh->uvs) {
         return uv(0.0, 0.0);
     }
-    weigh(mesh, face, linear_direction(&solid->to_object, vec3_sub(point, solid->centre)), weights);
+    weigh(mesh, face, linear_direction(&primitive->to_object, vec3_sub(point, primitive->centre)), weights);
     for (int i = 0; i < 3; i++) {
         const float *corner = mesh->uvs[mesh->face_uvs[face][i]];
         sum[0] += weights[i] * (double)corner[0];
@@ -99,11 +104,13 @@ Vec3 geometry_uv(const Geometry *geometry, const Scene *scene, ShapeId shape, Ve
     Vec3 text = vec3_scale(1.0 / scene->text_unit, vec3_sub(place, scene->text_origin));
     text.z = 0.0;
     switch (shape_kind(shape)) {
-    case SHAPE_PART: return of_part(&table->solids[part_index(shape)], point, part_side(shape), text);
+    case SHAPE_PRIMITIVE:
+        return of_part(&table->primitives[primitive_index(shape)], point, primitive_side(shape), text);
     case SHAPE_FACE: {
-        const Solid *solid = &table->solids[table_face_solid(table, shape)];
-        return solid->mesh.table->mesh->field ? text
-                                              : of_face(solid, shape_index(shape) - solid->mesh.first_face, point);
+        const PreparedPrimitive *primitive = &table->primitives[table_face_primitive(table, shape)];
+        return primitive->mesh.table->mesh->field
+                   ? text
+                   : of_face(primitive, shape_index(shape) - primitive->mesh.first_face, point);
     }
     default: return text; // a sphere with such a texture is a part
     }

@@ -80,16 +80,17 @@ RT_ALWAYS_INLINE uint64_t rows_rays(unsigned rows)
     return rays;
 }
 
-// From where to where a solid of one of these kinds, a constant of the caller, reaches along some normals, as seen from
-// its middle; `own` is what the normals are to the three axes of its space.
-RT_ALWAYS_INLINE void solid_reach(const Solid *solid, PartKind kind, const Doubles own[3], Doubles *low, Doubles *high)
+// From where to where a primitive of one of these kinds, a constant of the caller, reaches along some normals, as seen
+// from its middle; `own` is what the normals are to the three axes of its space.
+RT_ALWAYS_INLINE void primitive_reach(const PreparedPrimitive *primitive, PrimitiveKind kind, const Doubles own[3],
+                                      Doubles *low, Doubles *high)
 {
-    const double *from = &solid->data[0].x, *to = &solid->data[1].x;
+    const double *from = &primitive->data[0].x, *to = &primitive->data[1].x;
     Doubles round = doubles_sqrt(own[0] * own[0] + own[1] * own[1]), cap = from[0] * round;
     const Doubles zero = doubles_splat(0.0);
     switch (kind) {
-    case PART_BOX:
-    case PART_POLYNOMIAL:
+    case PRIMITIVE_BOX:
+    case PRIMITIVE_POLYNOMIAL:
         *low = *high = zero;
         for (int axis = 0; axis < 3; axis++) {
             Doubles a = from[axis] * own[axis], b = to[axis] * own[axis];
@@ -97,16 +98,16 @@ RT_ALWAYS_INLINE void solid_reach(const Solid *solid, PartKind kind, const Doubl
             *high += doubles_max(a, b);
         }
         break;
-    case PART_CONE:
+    case PRIMITIVE_CONE:
         *high = doubles_max(round, own[2] + cap);
         *low = doubles_min(-round, own[2] - cap);
         break;
-    case PART_TORUS:
+    case PRIMITIVE_TORUS:
         *high = from[0] * doubles_sqrt(own[0] * own[0] + own[2] * own[2]) +
                 from[1] * doubles_sqrt(own[0] * own[0] + own[1] * own[1] + own[2] * own[2]);
         *low = -*high;
         break;
-    case PART_DISC:
+    case PRIMITIVE_DISC:
         *high = round;
         *low = -round;
         break;
@@ -116,49 +117,49 @@ RT_ALWAYS_INLINE void solid_reach(const Solid *solid, PartKind kind, const Doubl
     }
 }
 
-// No point of a solid is farther from a place.
-RT_ALWAYS_INLINE double solid_farthest(const Solid *solid, PartKind kind, Vec3 offset)
+// No point of a primitive is farther from a place.
+RT_ALWAYS_INLINE double primitive_farthest(const PreparedPrimitive *primitive, PrimitiveKind kind, Vec3 offset)
 {
-    const double(*m)[3] = solid->to_world.m, *low = &solid->data[0].x, *high = &solid->data[1].x;
+    const double(*m)[3] = primitive->to_world.m, *low = &primitive->data[0].x, *high = &primitive->data[1].x;
     double sum = vec3_sum_abs(offset);
     for (int axis = 0; axis < 3; axis++) {
-        bool has_box = kind == PART_BOX || kind == PART_POLYNOMIAL;
-        double size = has_box              ? fabs(low[axis]) + fabs(high[axis])
-                      : kind == PART_CONE  ? greater_of(1.0, low[0])
-                      : kind == PART_TORUS ? low[0] + low[1]
-                                           : 1.0;
+        bool has_box = kind == PRIMITIVE_BOX || kind == PRIMITIVE_POLYNOMIAL;
+        double size = has_box                   ? fabs(low[axis]) + fabs(high[axis])
+                      : kind == PRIMITIVE_CONE  ? greater_of(1.0, low[0])
+                      : kind == PRIMITIVE_TORUS ? low[0] + low[1]
+                                                : 1.0;
         sum += size * (fabs(m[axis][0]) + fabs(m[axis][1]) + fabs(m[axis][2]));
     }
     return sum;
 }
 
-// Bit i is set where a solid does not touch a plane.
-RT_ALWAYS_INLINE unsigned solid_planes_apart(const Solid *solid, PartKind kind, Vec3 offset, double farthest,
-                                             const Doubles normal[3], Doubles spread)
+// Bit i is set where a primitive does not touch a plane.
+RT_ALWAYS_INLINE unsigned primitive_planes_apart(const PreparedPrimitive *primitive, PrimitiveKind kind, Vec3 offset,
+                                                 double farthest, const Doubles normal[3], Doubles spread)
 {
-    const double(*m)[3] = solid->to_world.m;
+    const double(*m)[3] = primitive->to_world.m;
     Doubles own[3], low, high, away = offset.x * normal[0] + offset.y * normal[1] + offset.z * normal[2];
 #pragma GCC unroll 3
     for (int axis = 0; axis < 3; axis++) {
         own[axis] = m[axis][0] * normal[0] + m[axis][1] * normal[1] + m[axis][2] * normal[2];
     }
-    solid_reach(solid, kind, own, &low, &high);
+    primitive_reach(primitive, kind, own, &low, &high);
     Doubles reach = farthest * spread;
     return doubles_ge(away + low, reach) | doubles_ge(-reach, away + high);
 }
 
-// The rows that a solid may touch, a bit for each; `offset` leads to its middle from the origin.
-RT_ALWAYS_INLINE unsigned solid_rows(TilePlanes *planes, const SphereTile *tile, const Solid *solid, PartKind kind,
-                                     Vec3 offset)
+// The rows that a primitive may touch, a bit for each; `offset` leads to its middle from the origin.
+RT_ALWAYS_INLINE unsigned primitive_rows(TilePlanes *planes, const SphereTile *tile, const PreparedPrimitive *primitive,
+                                         PrimitiveKind kind, Vec3 offset)
 {
-    double farthest = solid_farthest(solid, kind, offset);
+    double farthest = primitive_farthest(primitive, kind, offset);
     unsigned apart = 0;
     if (!planes->has_planes) {
         tile_set_planes(planes, tile);
     }
     Vec3 n = planes->across.normal;
     const Doubles across[3] = {doubles_splat(n.x), doubles_splat(n.y), doubles_splat(n.z)};
-    if (solid_planes_apart(solid, kind, offset, farthest, across, doubles_splat(planes->across.spread))) {
+    if (primitive_planes_apart(primitive, kind, offset, farthest, across, doubles_splat(planes->across.spread))) {
         return 0;
     }
     if (!planes->has_rows) {
@@ -167,7 +168,8 @@ RT_ALWAYS_INLINE unsigned solid_rows(TilePlanes *planes, const SphereTile *tile,
     for (int i = 0; i < ROWS; i += DOUBLES) {
         const Doubles normal[3] = {doubles_load(&planes->row_normal[0][i]), doubles_load(&planes->row_normal[1][i]),
                                    doubles_load(&planes->row_normal[2][i])};
-        apart |= solid_planes_apart(solid, kind, offset, farthest, normal, doubles_load(&planes->row_spread[i])) << i;
+        apart |= primitive_planes_apart(primitive, kind, offset, farthest, normal, doubles_load(&planes->row_spread[i]))
+                 << i;
     }
     return ~apart & ((1u << ROWS) - 1);
 }

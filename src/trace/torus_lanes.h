@@ -53,11 +53,11 @@ RT_ALWAYS_INLINE void torus_lanes_near(const TorusLanes *torus, LineLanes *line)
     line->is_near = is_met & (line->low < line->high);
 }
 
-RT_ALWAYS_INLINE void torus_lanes_set(const Solid *solid, const Doubles f[3], const Doubles d[3], TorusLanes *torus,
-                                      LineLanes *line)
+RT_ALWAYS_INLINE void torus_lanes_set(const PreparedPrimitive *primitive, const Doubles f[3], const Doubles d[3],
+                                      TorusLanes *torus, LineLanes *line)
 {
     Doubles square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], p[3], u[3];
-    double major = solid->data[0].x, minor = solid->data[0].y;
+    double major = primitive->data[0].x, minor = primitive->data[0].y;
     line->t_base = -(f[0] * d[0] + f[1] * d[1] + f[2] * d[2]) / square;
     line->step = 1.0 / doubles_sqrt(square);
     for (int axis = 0; axis < 3; axis++) {

@@ -26,16 +26,16 @@ typedef enum TraceFeature {
     TRACE_SPHERES = 1 << 0,    // a few spheres, tested one after the other
     TRACE_SPHERE_BVH = 1 << 1, // many spheres, in a tree (then TRACE_SPHERES is not set)
     TRACE_PLANES = 1 << 2,
-    TRACE_PARTS = 1 << 3, // any other shape, stretched spheres among them
+    TRACE_PRIMITIVES = 1 << 3, // any other shape, stretched spheres among them
     TRACE_ALL_FEATURES = (1 << 4) - 1,
 } TraceFeature;
 
-// A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below. A part's index is
-// followed by the side of it that was met, in PART_SIDE_BITS. Of a mesh a face is a shape: those of all parts that are
-// meshes are counted one after the other.
+// A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below. A primitive's index is
+// followed by the side of it that was met, in PRIMITIVE_SIDE_BITS. Of a mesh a face is a shape: those of all primitives
+// that are meshes are counted one after the other.
 typedef uint32_t ShapeId;
-enum { SHAPE_INDEX_BITS = 30, PART_SIDE_BITS = 3 };
-typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_PLANE, SHAPE_PART, SHAPE_FACE } ShapeKind;
+enum { SHAPE_INDEX_BITS = 30, PRIMITIVE_SIDE_BITS = 3 };
+typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_PLANE, SHAPE_PRIMITIVE, SHAPE_FACE } ShapeKind;
 #define SHAPE_NONE UINT32_MAX
 #define NO_BLOCKER UINT32_MAX // see geometry_occluded_again
 
@@ -49,10 +49,10 @@ static inline ShapeKind shape_kind(ShapeId id)
     return (ShapeKind)(id >> SHAPE_INDEX_BITS);
 }
 
-// Whether it is on a part; not of SHAPE_NONE.
-static inline bool shape_is_on_part(ShapeId id)
+// Whether it is on a primitive; not of SHAPE_NONE.
+static inline bool shape_is_on_primitive(ShapeId id)
 {
-    return shape_kind(id) >= SHAPE_PART;
+    return shape_kind(id) >= SHAPE_PRIMITIVE;
 }
 
 static inline uint32_t shape_index(ShapeId id)
@@ -65,7 +65,7 @@ static inline uint32_t shape_index(ShapeId id)
 typedef struct RayStart {
     ShapeId shape;
     bool inward;
-    uint8_t use; // the HiddenFrom bit that makes a part invisible to it; 0: it sees all
+    uint8_t use; // the HiddenFrom bit that makes a primitive invisible to it; 0: it sees all
 } RayStart;
 
 #define RAY_START_FREE   ((RayStart){SHAPE_NONE, false, 0})
@@ -83,7 +83,7 @@ typedef struct Surface {
     Vec3 normal; // unit, outward, whatever side was hit
     MaterialIndex material;
     uint32_t order; // of the shape, in the order of declaration
-    uint32_t body;  // of a leaf of a composite: Part.body, else 0
+    uint32_t body;  // of a leaf of a composite: Primitive.body, else 0
 } Surface;
 
 typedef struct Geometry Geometry;
@@ -131,7 +131,8 @@ unsigned geometry_features(const Geometry *geometry);
 // The name of the instruction set that it is traced with.
 const char *geometry_isa_name(const Geometry *geometry);
 
-// From now on rays need not meet what takes long (composites of many parts, tiles of many spheres) once this says so; NULL: they always do.
+// From now on rays need not meet what takes long (composites of many primitives, tiles of many spheres) once this says
+// so; NULL: they always do.
 void geometry_set_abandon(Geometry *geometry, const Abandon *abandon);
 
 // A point of a surface.

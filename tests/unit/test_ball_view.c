@@ -6,12 +6,12 @@
 
 static void add_box(Scene *scene, Random *random)
 {
-    Part part = {.kind = PART_BOX, .node = NODE_NONE, .data = {{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}}};
+    Primitive primitive = {.kind = PRIMITIVE_BOX, .node = NODE_NONE, .data = {{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}}};
     double size = random_between(random, 0.05, 0.8);
     Vec3 turn = random_vec3(random, 0, 360);
-    part.to_world = transform_compose(transform_scale(vec3(size, 0.3 * size, size)), transform_rotate(turn));
-    part.to_world = transform_compose(part.to_world, transform_translate(random_point(random, 10)));
-    if (!transform_invert(&part.to_world, &part.to_object) || !scene_add_part(scene, &part)) {
+    primitive.to_world = transform_compose(transform_scale(vec3(size, 0.3 * size, size)), transform_rotate(turn));
+    primitive.to_world = transform_compose(primitive.to_world, transform_translate(random_point(random, 10)));
+    if (!transform_invert(&primitive.to_world, &primitive.to_object) || !scene_add_primitive(scene, &primitive)) {
         abort();
     }
 }

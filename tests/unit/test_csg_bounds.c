@@ -27,42 +27,42 @@ static const Form forms[] = {
     {"tori that cross themselves", {0}, true}, // in place of a quadric
 };
 
-static void finish(Part *part, Transform to_world)
+static void finish(Primitive *primitive, Transform to_world)
 {
-    part->to_world = to_world;
-    if (!transform_invert(&to_world, &part->to_object)) {
+    primitive->to_world = to_world;
+    if (!transform_invert(&to_world, &primitive->to_object)) {
         abort();
     }
 }
 
-static Part quadric(const Form *form, double list[LIST], Transform to_world)
+static Primitive quadric(const Form *form, double list[LIST], Transform to_world)
 {
-    Part part = {.node = NODE_NONE};
+    Primitive primitive = {.node = NODE_NONE};
     list[0] = 2.0;
     memcpy(list + 5, form->terms, sizeof form->terms);
     polynomial_complete(list);
-    polynomial_part(&(Numbers){list, LIST}, &part);
-    finish(&part, to_world);
-    return part;
+    polynomial_part(&(Numbers){list, LIST}, &primitive);
+    finish(&primitive, to_world);
+    return primitive;
 }
 
 // A plane across y of the space of a map: above it, or below.
-static Part plane(const Part *in, double y, bool is_above)
+static Primitive plane(const Primitive *in, double y, bool is_above)
 {
-    Part part = {.kind = PART_PLANE};
+    Primitive primitive = {.kind = PRIMITIVE_PLANE};
     Vec3 at = transform_point(&in->to_world, vec3(0.0, y, 0.0));
     Vec3 normal = vec3_normalize(transform_normal(&in->to_object, vec3(0.0, is_above ? -1.0 : 1.0, 0.0)));
-    part.data[0] = normal;
-    part.data[1].x = vec3_dot(normal, at);
-    finish(&part, transform_identity());
-    return part;
+    primitive.data[0] = normal;
+    primitive.data[1].x = vec3_dot(normal, at);
+    finish(&primitive, transform_identity());
+    return primitive;
 }
 
-static void add_leaf(Scene *scene, Part part, uint32_t node, bool is_inverse)
+static void add_leaf(Scene *scene, Primitive primitive, uint32_t node, bool is_inverse)
 {
-    part.node = node;
-    part.flags = is_inverse ? PART_INVERSE : 0;
-    if (!scene_add_leaf(scene, &part)) {
+    primitive.node = node;
+    primitive.flags = is_inverse ? PRIMITIVE_INVERSE : 0;
+    if (!scene_add_leaf(scene, &primitive)) {
         abort();
     }
 }
@@ -85,7 +85,7 @@ static Geometry *random_composite(Random *random, const Form *form, Scene *scene
         abort();
     }
     bool is_torus = form->terms[0] == 0.0;
-    Part first = {.kind = PART_TORUS, .node = NODE_NONE, .data = {{0.4, 1.1, 0.0}}};
+    Primitive first = {.kind = PRIMITIVE_TORUS, .node = NODE_NONE, .data = {{0.4, 1.1, 0.0}}};
     finish(&first, random_place(random));
     if (is_torus) {
         add_leaf(scene, first, root, false);
@@ -104,7 +104,7 @@ static Geometry *random_composite(Random *random, const Form *form, Scene *scene
         if (!scene_add_node(scene, NODE_UNION, false, root, 0, &either)) {
             abort();
         }
-        Part other = {.node = NODE_NONE};
+        Primitive other = {.node = NODE_NONE};
         finish(&other, random_place(random));
         add_leaf(scene, plane(&other, 0.3, true), either, false);
         add_leaf(scene, plane(&other, -0.3, true), either, random_bits(random) % 2);
@@ -124,17 +124,17 @@ static bool try_ray(Geometry *g, Ray ray, RayStart start, Found *found, Hit *hit
     uint32_t bounded = table->bounded_count, unbounded = table->unbounded_count;
     Hit one = {.shape = SHAPE_NONE}, other = {.shape = SHAPE_NONE};
     bool met = closest(g, ray, start, (double)INFINITY, &one);
-    for (uint32_t i = 0; i < table->solid_count; i++) {
-        was_needed[i] = table->solids[i].is_needed;
-        table->solids[i].is_needed = table->solids[i].decides;
+    for (uint32_t i = 0; i < table->primitive_count; i++) {
+        was_needed[i] = table->primitives[i].is_needed;
+        table->primitives[i].is_needed = table->primitives[i].decides;
     }
     table->bounded_count = 0;
     table->unbounded_count = 1;
     bool other_met = closest(g, ray, start, (double)INFINITY, &other);
     table->bounded_count = bounded;
     table->unbounded_count = unbounded;
-    for (uint32_t i = 0; i < table->solid_count; i++) {
-        table->solids[i].is_needed = was_needed[i];
+    for (uint32_t i = 0; i < table->primitive_count; i++) {
+        table->primitives[i].is_needed = was_needed[i];
     }
     found->rays++;
     found->met += met;
@@ -192,10 +192,10 @@ static void test_size(uint64_t seed, const Form *form, double half)
             !scene_add_node(&scene, NODE_INTERSECTION, false, NODE_NONE, 0, &root)) {
             abort();
         }
-        Part part = quadric(form, list, place);
-        add_leaf(&scene, part, root, false);
-        add_leaf(&scene, plane(&part, -1.0, true), root, false);
-        add_leaf(&scene, plane(&part, 1.0, false), root, false);
+        Primitive primitive = quadric(form, list, place);
+        add_leaf(&scene, primitive, root, false);
+        add_leaf(&scene, plane(&primitive, -1.0, true), root, false);
+        add_leaf(&scene, plane(&primitive, 1.0, false), root, false);
         scene_end_composite(&scene);
         Geometry *g = prepare(&scene, 0);
         const Bvh *tree = &g->shapes.tree;

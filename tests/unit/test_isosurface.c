@@ -123,16 +123,17 @@ static double hit_of(const double *list, uint64_t count, double size, int expone
 {
     Scene scene;
     Hit hit = {.t = -1.0};
-    Part part = part_empty(0);
+    Primitive primitive = part_empty(0);
     scene_init(&scene);
-    part.kind = PART_ISOSURFACE;
-    part.fixed[0] = vec3(-1.0, -1.0, -1.0);
-    part.fixed[1] = vec3(1.0, 1.0, 1.0);
-    part.list = (Numbers){list, count};
-    part.to_world =
+    primitive.kind = PRIMITIVE_ISOSURFACE;
+    primitive.fixed[0] = vec3(-1.0, -1.0, -1.0);
+    primitive.fixed[1] = vec3(1.0, 1.0, 1.0);
+    primitive.list = (Numbers){list, count};
+    primitive.to_world =
         transform_compose(transform_rotate(vec3(10.0, 20.0, 30.0)), transform_scale(vec3(size, size, size)));
-    Geometry *geometry = part_finish(&part) && scene_add_part(&scene, &part) ? geometry_new(&scene, exponent) : NULL;
-    if (!geometry || !geometry_closest(geometry, TRACE_PARTS, ray, RAY_START_FREE, (double)INFINITY, &hit)) {
+    Geometry *geometry =
+        part_finish(&primitive) && scene_add_primitive(&scene, &primitive) ? geometry_new(&scene, exponent) : NULL;
+    if (!geometry || !geometry_closest(geometry, TRACE_PRIMITIVES, ray, RAY_START_FREE, (double)INFINITY, &hit)) {
         hit.t = -1.0;
     }
     geometry_free(geometry);

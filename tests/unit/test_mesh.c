@@ -156,10 +156,10 @@ static unsigned count_crossings(const Mesh *mesh, const Ray *ray, bool is_after)
 static Geometry *geometry_of(Scene *scene, Mesh *mesh, Transform to_world)
 {
     scene_init(scene);
-    Part part = {.kind = PART_MESH, .node = NODE_NONE, .to_world = to_world};
-    part.mesh = (PartMesh){mesh->low, mesh->high, mesh, 0};
-    if (!scene_add_mesh(scene, mesh) || !transform_invert(&to_world, &part.to_object) ||
-        !scene_add_part(scene, &part)) {
+    Primitive primitive = {.kind = PRIMITIVE_MESH, .node = NODE_NONE, .to_world = to_world};
+    primitive.mesh = (PrimitiveMesh){mesh->low, mesh->high, mesh, 0};
+    if (!scene_add_mesh(scene, mesh) || !transform_invert(&to_world, &primitive.to_object) ||
+        !scene_add_primitive(scene, &primitive)) {
         abort();
     }
     return prepare(scene, 0);

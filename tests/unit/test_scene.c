@@ -42,13 +42,12 @@ static void test_materials(void)
 static bool build_scene(Scene *scene)
 {
     Transform stretch = transform_scale(vec3(1.0, 2.0, 3.0));
-    Part ball = {.kind = PART_SPHERE, .to_world = stretch, .source = 9};
+    Primitive ball = {.kind = PRIMITIVE_SPHERE, .to_world = stretch, .source = 9};
     MaterialIndex index;
     scene_init(scene);
     return transform_invert(&stretch, &ball.to_object) && add_material(scene, 0.1, 0.6, &index) &&
            scene_add_sphere(scene, vec3(0.0, 1.0, -0.1), 0.5, index, 7) &&
-           scene_add_plane(scene, vec3(0.0, 1.0, 0.0), -1.0, index, 8) &&
-           scene_add_part(scene, &ball) &&
+           scene_add_plane(scene, vec3(0.0, 1.0, 0.0), -1.0, index, 8) && scene_add_primitive(scene, &ball) &&
            scene_add_sphere(scene, vec3(1e300, 1.0, 1.0 / 3.0), 1e-9, index, 10);
 }
 
@@ -58,7 +57,7 @@ static void test_order_and_dump(void)
     TextBuffer out;
     text_init(&out);
     tap_ok(build_scene(&scene) && scene.shape_count == 4 && scene_sphere_order(&scene, 1) == 3 &&
-               scene.planes.items[0].order == 1 && scene.parts.items[0].order == 2,
+               scene.planes.items[0].order == 1 && scene.primitives.items[0].order == 2,
            "shapes are numbered in the order of declaration over all kinds");
     scene.settings.version = 3.7;
     scene.settings.gamma_model = GAMMA_POWER;
@@ -129,7 +128,7 @@ static void spoil_light(Scene *scene)
 
 static void spoil_all_shapes(Scene *scene)
 {
-    scene->spheres.count = scene->parts.count = scene->planes.count = 0;
+    scene->spheres.count = scene->primitives.count = scene->planes.count = 0;
     scene->shape_count = 0;
 }
 
@@ -145,7 +144,7 @@ static void spoil_material(Scene *scene)
 
 static void spoil_inverse(Scene *scene)
 {
-    scene->parts.items[0].to_object.m[2][2] = INFINITY;
+    scene->primitives.items[0].to_object.m[2][2] = INFINITY;
 }
 
 static void spoil_finish(Scene *scene)
@@ -247,11 +246,12 @@ static bool make_crowd(Scene *scene, const uint32_t twins[CROWD_TWINS][2])
         is_made = scene_add_sphere(scene, centre, 1.0, 0, i + 1);
     }
     for (uint32_t i = 0; i < ROUND_TWINS && is_made; i++) { // in the way of the last one stands something else
-        Part part = {.kind = PART_SPHERE, .node = NODE_NONE, .source = CROWD + i + 1};
-        part.to_world = transform_translate(i == 2 ? vec3(1e6, 0.0, 0.0) : scene->spheres.items[7 + 30000 * i].centre);
-        is_made = scene_add_part(scene, &part);
+        Primitive primitive = {.kind = PRIMITIVE_SPHERE, .node = NODE_NONE, .source = CROWD + i + 1};
+        primitive.to_world =
+            transform_translate(i == 2 ? vec3(1e6, 0.0, 0.0) : scene->spheres.items[7 + 30000 * i].centre);
+        is_made = scene_add_primitive(scene, &primitive);
     }
-    Part leaf = {.kind = PART_SPHERE, .source = CROWD + 9};
+    Primitive leaf = {.kind = PRIMITIVE_SPHERE, .source = CROWD + 9};
     leaf.to_world = transform_translate(scene->spheres.items[CROWD - 3].centre);
     is_made = is_made && scene_begin_composite(scene, 0, CROWD + 8) &&
               scene_add_node(scene, NODE_INTERSECTION, false, NODE_NONE, CROWD + 8, &index);

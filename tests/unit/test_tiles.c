@@ -579,7 +579,7 @@ static void test_light(uint64_t first, const Extras *extras, const SamplingOptio
         Scene scene;
         RenderStatistics single, tiled;
         random_scene(&random, extras, &scene);
-        const unsigned all = RENDER_NORMALS | TRACE_PARTS;
+        const unsigned all = RENDER_NORMALS | TRACE_PRIMITIVES;
         Film expected = picture(&scene, NULL, all, true, sampling, &single);
         for (size_t i = 0; geometry_isa(i / 2); i++, pictures++) {
             Film film = picture(&scene, geometry_isa(i / 2), i % 2 ? all : 0, false, sampling, &tiled);

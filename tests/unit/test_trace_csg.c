@@ -32,37 +32,38 @@ static double quarter(Random *random, double from, double to)
     return bits % 3 ? place : place * (1.0 + 0x1p-52 * (double)(bits >> 8 & 63));
 }
 
-static Part random_leaf(Random *random, const Family *family, int number)
+static Primitive random_leaf(Random *random, const Family *family, int number)
 {
-    static const PartKind any[] = {PART_BOX, PART_SPHERE, PART_CONE, PART_PLANE};
-    Part part;
-    PartKind kind = any[random_bits(random) % 4];
+    static const PrimitiveKind any[] = {PRIMITIVE_BOX, PRIMITIVE_SPHERE, PRIMITIVE_CONE, PRIMITIVE_PLANE};
+    Primitive primitive;
+    PrimitiveKind kind = any[random_bits(random) % 4];
     if (family->is_tied) {
         bool is_box = random_bits(random) % 3;
         double radius = 0.25 + quarter(random, 0.25, 1.25);
         Vec3 at = vec3(quarter(random, -0.5, 0.5), 0.0, 0.0);
         at.y = quarter(random, -0.5, 0.5);
         at.z = quarter(random, -0.5, 0.5);
-        part = (Part){.kind = is_box ? PART_BOX : PART_SPHERE};
-        part.data[0] = vec3(-1.0, -1.0, -1.0);
-        part.data[1] = vec3(1.0, 1.0, 1.0);
-        part.to_world = transform_compose(transform_scale(vec3(radius, radius, radius)), transform_translate(at));
+        primitive = (Primitive){.kind = is_box ? PRIMITIVE_BOX : PRIMITIVE_SPHERE};
+        primitive.data[0] = vec3(-1.0, -1.0, -1.0);
+        primitive.data[1] = vec3(1.0, 1.0, 1.0);
+        primitive.to_world = transform_compose(transform_scale(vec3(radius, radius, radius)), transform_translate(at));
     } else {
-        part = random_part(random, kind, 1.0);
-        part.to_world = transform_compose(part.to_world, transform_translate(random_point(random, 0.6)));
+        primitive = random_primitive(random, kind, 1.0);
+        primitive.to_world = transform_compose(primitive.to_world, transform_translate(random_point(random, 0.6)));
     }
-    if (part.kind == PART_PLANE) {
-        part.to_world = transform_identity();
-        part.data[0] = random_direction(random);
-        part.data[1].x = random_between(random, -0.5, 0.5);
+    if (primitive.kind == PRIMITIVE_PLANE) {
+        primitive.to_world = transform_identity();
+        primitive.data[0] = random_direction(random);
+        primitive.data[1].x = random_between(random, -0.5, 0.5);
     }
-    if (!transform_invert(&part.to_world, &part.to_object)) {
+    if (!transform_invert(&primitive.to_world, &primitive.to_object)) {
         abort();
     }
     bool is_clip = family->op == NODE_CLIP && number > 0;
-    part.flags = (number > 0 && random_bits(random) % 2 ? PART_INVERSE : 0) | (is_clip ? PART_UNSEEN : 0);
-    part.flags |= family->op == NODE_CLIP && random_bits(random) % 2 ? PART_OPEN : 0;
-    return part;
+    primitive.flags =
+        (number > 0 && random_bits(random) % 2 ? PRIMITIVE_INVERSE : 0) | (is_clip ? PRIMITIVE_UNSEEN : 0);
+    primitive.flags |= family->op == NODE_CLIP && random_bits(random) % 2 ? PRIMITIVE_OPEN : 0;
+    return primitive;
 }
 
 static Geometry *random_composite(Random *random, const Family *family, Scene *scene)
@@ -74,7 +75,7 @@ static Geometry *random_composite(Random *random, const Family *family, Scene *s
         abort();
     }
     for (int i = 0; i < leaves; i++) {
-        Part leaf = random_leaf(random, family, i);
+        Primitive leaf = random_leaf(random, family, i);
         leaf.node = root;
         if (!scene_add_leaf(scene, &leaf)) {
             abort();

@@ -59,7 +59,7 @@ static void test_shapes(void)
     tap_ok(met && fabs(p.x * p.x + p.y * p.y + p.z * p.z / 4 - 1) < 8 * U &&
                vec3_max_abs(vec3_sub(surface.normal, gradient)) < 8 * U,
            "an ellipsoid's point and normal");
-    tap_ok(geometry_features(geometry) == (TRACE_SPHERES | TRACE_PARTS | TRACE_PLANES), "features are told");
+    tap_ok(geometry_features(geometry) == (TRACE_SPHERES | TRACE_PRIMITIVES | TRACE_PLANES), "features are told");
     geometry_free(geometry);
     scene_fini(&scene);
 }
@@ -178,7 +178,7 @@ static bool nearest_one_by_one(const Geometry *g, Ray ray, RayStart start, uint3
 {
     const SphereData unit = UNIT_SPHERE;
     double start_error = from == UINT32_MAX ? 0.0 : shapes_start_error(&g->shapes, &ray, start);
-    uint32_t count = g->shapes.solid_count;
+    uint32_t count = g->shapes.primitive_count;
     struct {
         Hit hit;
         double begin;
@@ -186,20 +186,20 @@ static bool nearest_one_by_one(const Geometry *g, Ray ray, RayStart start, uint3
     *limit = (double)INFINITY;
     for (uint32_t k = 0; k < count; k++) {
         uint32_t i = item_index(g->shapes.items[k]);
-        const Solid *solid = &g->shapes.solids[i];
-        Ray object = solid_ray(solid, &ray);
+        const PreparedPrimitive *primitive = &g->shapes.primitives[i];
+        Ray object = primitive_ray(primitive, &ray);
         SphereRay own = sphere_ray_make(object.origin, object.direction);
         bool inside = true;
         double t = i != from ? sphere_hit(&own, &unit, &inside) : start.inward ? sphere_root_inward(&own, &unit) : 0.0;
-        double error = solid_ball_error(solid, &ray, &object, t), enter = box_enter(g, k, ray);
+        double error = primitive_ball_error(primitive, &ray, &object, t), enter = box_enter(g, k, ray);
         if (t > 0.0 && i != from && from != UINT32_MAX && t <= error + start_error) {
             t = inside ? 0.0 : sphere_root_inward(&own, &unit);
-            error = solid_ball_error(solid, &ray, &object, t);
+            error = primitive_ball_error(primitive, &ray, &object, t);
             inside = true;
             t = t > error + start_error ? t : 0.0;
         }
         if (t > 0.0 && enter >= 0.0) {
-            roots[i].hit = (Hit){t, part_shape(i, 0), inside};
+            roots[i].hit = (Hit){t, primitive_shape(i, 0), inside};
             roots[i].begin = fmax(root_span(t, error).from, enter);
             *limit = fmin(*limit, fmax(t + error, enter));
         }
@@ -235,7 +235,7 @@ static int legs_that_differ(const Geometry *g, Ray ray, Random *random, int *met
                  geometry_occluded(g, TRACE_ALL_FEATURES, ray, start, 0.999 * limit) ||
                  !geometry_occluded(g, TRACE_ALL_FEATURES, ray, start, 1.001 * limit);
         Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit);
-        from = part_index(hit.shape);
+        from = primitive_index(hit.shape);
         ray = (Ray){surface.point, random_direction(random)};
         start = (RayStart){hit.shape, vec3_dot(surface.normal, ray.direction) < 0.0, 0};
     }
@@ -252,7 +252,7 @@ static void test_stretched(Random *random, double thinnest, int count)
     Geometry *g = prepare(&scene, 0);
     int met = 0, wrong = 0;
     for (int i = 0; i < 5000; i++) {
-        Vec3 eye = random_point(random, 30), aim = g->shapes.solids[random_below(random, (unsigned)count)].centre;
+        Vec3 eye = random_point(random, 30), aim = g->shapes.primitives[random_below(random, (unsigned)count)].centre;
         wrong += legs_that_differ(g, (Ray){eye, vec3_normalize(vec3_sub(aim, eye))}, random, &met);
     }
     double bytes = (double)geometry_bytes(g) / count;
@@ -290,7 +290,7 @@ static int layers_that_differ(const Geometry *g, Random *random, double apart, i
         Hit hit;
         wrong += legs_that_differ(g, ray, random, met);
         if (closest(g, ray, RAY_START_FREE, (double)INFINITY, &hit)) {
-            seen[part_index(hit.shape)] = true;
+            seen[primitive_index(hit.shape)] = true;
         }
     }
     return wrong;

@@ -15,12 +15,13 @@ typedef struct Family {
     int balls, others, spheres, planes, composites;
     double size, spread; // of a part; of where they are
     bool is_tied;        // some are equal, or nearly, or lie in one another
-    unsigned kinds;      // of the others, a bit for each PartKind; 0: all of `simple`
+    unsigned kinds;      // of the others, a bit for each PrimitiveKind; 0: all of `simple`
 } Family;
 
 enum { SIMPLE = 5 }; // so many of these have the families that name none
-static const PartKind simple[] = {PART_BOX,   PART_CONE,      PART_DISC, PART_TRIANGLE, PART_SMOOTH_TRIANGLE,
-                                  PART_TORUS, PART_POLYNOMIAL};
+static const PrimitiveKind simple[] = {
+    PRIMITIVE_BOX,   PRIMITIVE_CONE,      PRIMITIVE_DISC, PRIMITIVE_TRIANGLE, PRIMITIVE_SMOOTH_TRIANGLE,
+    PRIMITIVE_TORUS, PRIMITIVE_POLYNOMIAL};
 
 static const Family kinds[] = {
     {"a few balls", 6, 0, 0, 0, 0, 1.0, 2.0, false, 0},
@@ -31,25 +32,25 @@ static const Family kinds[] = {
     {"balls and other shapes", 150, 150, 0, 0, 20, 0.2, 3.0, false, 0},
     {"all kinds", 150, 80, 100, 2, 10, 0.2, 3.0, false, 0},
     {"balls in one another", 150, 0, 10, 0, 0, 0.3, 2.0, true, 0},
-    {"cones", 0, 300, 0, 0, 0, 0.2, 3.0, false, 1u << PART_CONE},
-    {"boxes", 0, 300, 0, 0, 0, 0.2, 3.0, false, 1u << PART_BOX},
-    {"discs and triangles", 0, 400, 0, 0, 0, 0.3, 3.0, false, 1u << PART_DISC | 1u << PART_TRIANGLE},
-    {"smooth triangles", 0, 400, 0, 0, 0, 0.3, 3.0, false, 1u << PART_SMOOTH_TRIANGLE},
-    {"thin cones far away, and spheres", 0, 300, 50, 0, 0, 2e-3, 0.5, false, 1u << PART_CONE},
-    {"cones in one another", 0, 150, 10, 1, 0, 0.3, 2.0, true, 1u << PART_CONE},
-    {"boxes in one another", 0, 150, 0, 1, 0, 0.3, 2.0, true, 1u << PART_BOX},
-    {"flat ones in one another", 0, 200, 0, 1, 0, 0.5, 2.0, true, 1u << PART_DISC | 1u << PART_TRIANGLE},
+    {"cones", 0, 300, 0, 0, 0, 0.2, 3.0, false, 1u << PRIMITIVE_CONE},
+    {"boxes", 0, 300, 0, 0, 0, 0.2, 3.0, false, 1u << PRIMITIVE_BOX},
+    {"discs and triangles", 0, 400, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_DISC | 1u << PRIMITIVE_TRIANGLE},
+    {"smooth triangles", 0, 400, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_SMOOTH_TRIANGLE},
+    {"thin cones far away, and spheres", 0, 300, 50, 0, 0, 2e-3, 0.5, false, 1u << PRIMITIVE_CONE},
+    {"cones in one another", 0, 150, 10, 1, 0, 0.3, 2.0, true, 1u << PRIMITIVE_CONE},
+    {"boxes in one another", 0, 150, 0, 1, 0, 0.3, 2.0, true, 1u << PRIMITIVE_BOX},
+    {"flat ones in one another", 0, 200, 0, 1, 0, 0.5, 2.0, true, 1u << PRIMITIVE_DISC | 1u << PRIMITIVE_TRIANGLE},
     {"all in one another", 50, 150, 10, 1, 5, 0.3, 2.0, true, 0},
-    {"tori", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PART_TORUS},
-    {"closed quartics", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PART_POLYNOMIAL},
+    {"tori", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_TORUS},
+    {"closed quartics", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_POLYNOMIAL},
     {"tori, closed quartics and cones", 0, 300, 20, 1, 5, 0.3, 3.0, false,
-     1u << PART_TORUS | 1u << PART_POLYNOMIAL | 1u << PART_CONE},
-    {"tori in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PART_TORUS},
-    {"closed quartics in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PART_POLYNOMIAL},
+     1u << PRIMITIVE_TORUS | 1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_CONE},
+    {"tori in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_TORUS},
+    {"closed quartics in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_POLYNOMIAL},
 };
 
 // A closed quartic: a torus, a rounded cube, one of some bumps, or two drops that meet.
-static void set_quartic(Random *random, Part *part)
+static void set_quartic(Random *random, Primitive *primitive)
 {
     enum { COUNT = POLYNOMIAL_HEAD + 5 + 35, XXXX = 0, XXYY = 4, XXZZ = 7, XX = 9, YYYY = 20, YYZZ = 23, YY = 25, ZZZZ = 30, ZZ = 32 };
     static double lists[4][COUNT];
@@ -71,20 +72,20 @@ static void set_quartic(Random *random, Part *part)
         (*list)[0] = 4;
         polynomial_complete(*list);
     }
-    polynomial_part(&(Numbers){*list, COUNT}, part);
+    polynomial_part(&(Numbers){*list, COUNT}, primitive);
 }
 
-static Part part_at(Random *random, PartKind kind, double size, Vec3 at)
+static Primitive part_at(Random *random, PrimitiveKind kind, double size, Vec3 at)
 {
-    Part part = random_part(random, kind, size);
-    if (kind == PART_POLYNOMIAL) {
-        set_quartic(random, &part);
+    Primitive primitive = random_primitive(random, kind, size);
+    if (kind == PRIMITIVE_POLYNOMIAL) {
+        set_quartic(random, &primitive);
     }
-    part.to_world = transform_compose(part.to_world, transform_translate(at));
-    if (!transform_invert(&part.to_world, &part.to_object)) {
+    primitive.to_world = transform_compose(primitive.to_world, transform_translate(at));
+    if (!transform_invert(&primitive.to_world, &primitive.to_object)) {
         abort();
     }
-    return part;
+    return primitive;
 }
 
 // What a ball and a box have in common.
@@ -92,7 +93,8 @@ static void add_composite(Scene *scene, Random *random, const Family *family)
 {
     uint32_t root;
     Vec3 at = random_point(random, family->spread);
-    Part ball = part_at(random, PART_SPHERE, family->size, at), box = part_at(random, PART_BOX, family->size, at);
+    Primitive ball = part_at(random, PRIMITIVE_SPHERE, family->size, at),
+              box = part_at(random, PRIMITIVE_BOX, family->size, at);
     if (!scene_begin_composite(scene, 0, 0) || !scene_add_node(scene, NODE_INTERSECTION, false, NODE_NONE, 0, &root)) {
         abort();
     }
@@ -104,44 +106,44 @@ static void add_composite(Scene *scene, Random *random, const Family *family)
 }
 
 // Another solid: anywhere, or, in a family of ties, where the last one is or next to that.
-static Part random_solid(Random *random, const Family *family, PartKind kind, const Part *last)
+static Primitive random_solid(Random *random, const Family *family, PrimitiveKind kind, const Primitive *last)
 {
     double size = family->size * exp(random_between(random, -1, 0.5));
-    Part part = part_at(random, kind, size, random_point(random, family->spread));
+    Primitive primitive = part_at(random, kind, size, random_point(random, family->spread));
     uint64_t bits = random_bits(random);
-    bool has_inside = kind == PART_SPHERE || kind == PART_BOX || kind == PART_CONE || kind == PART_TORUS ||
-                      kind == PART_POLYNOMIAL;
-    if (kind == PART_SMOOTH_TRIANGLE) {
+    bool has_inside = kind == PRIMITIVE_SPHERE || kind == PRIMITIVE_BOX || kind == PRIMITIVE_CONE ||
+                      kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL;
+    if (kind == PRIMITIVE_SMOOTH_TRIANGLE) {
         for (int i = 0; i < 3; i++) {
-            part.data[i] = random_direction(random);
+            primitive.data[i] = random_direction(random);
         }
     }
     if (family->is_tied && last && bits % 2) {
         double apart = bits >> 4 & 1 ? 0x1p-30 : 0x1p-52;
-        part.to_world = last->to_world;
-        if (part.kind == last->kind) {
-            memcpy(part.data, last->data, sizeof part.data);
+        primitive.to_world = last->to_world;
+        if (primitive.kind == last->kind) {
+            memcpy(primitive.data, last->data, sizeof primitive.data);
         }
         for (int row = 0; bits % 4 == 1 && row < 3; row++) {
             for (int column = 0; column < 3; column++) {
-                part.to_world.m[row][column] *= 1.0 + apart * (double)(bits >> 8 & 7);
+                primitive.to_world.m[row][column] *= 1.0 + apart * (double)(bits >> 8 & 7);
             }
         }
     }
-    part.hidden = bits >> 16 & 15 ? 0 : bits >> 20 & 7;
-    part.hidden = part.hidden == 7 ? 0 : part.hidden;
-    part.flags = bits >> 24 & 511 || !has_inside ? 0 : PART_INVERSE;
-    part.flags |= kind == PART_CONE && !(bits >> 36 & 7) ? PART_OPEN : 0;
-    if (!transform_invert(&part.to_world, &part.to_object)) {
+    primitive.hidden = bits >> 16 & 15 ? 0 : bits >> 20 & 7;
+    primitive.hidden = primitive.hidden == 7 ? 0 : primitive.hidden;
+    primitive.flags = bits >> 24 & 511 || !has_inside ? 0 : PRIMITIVE_INVERSE;
+    primitive.flags |= kind == PRIMITIVE_CONE && !(bits >> 36 & 7) ? PRIMITIVE_OPEN : 0;
+    if (!transform_invert(&primitive.to_world, &primitive.to_object)) {
         abort();
     }
-    return part;
+    return primitive;
 }
 
-static PartKind random_kind(Random *random, const Family *family)
+static PrimitiveKind random_kind(Random *random, const Family *family)
 {
     for (;;) {
-        PartKind kind = simple[random_bits(random) % (family->kinds ? RT_COUNT_OF(simple) : SIMPLE)];
+        PrimitiveKind kind = simple[random_bits(random) % (family->kinds ? RT_COUNT_OF(simple) : SIMPLE)];
         if (!family->kinds || family->kinds >> kind & 1) {
             return kind;
         }
@@ -150,7 +152,7 @@ static PartKind random_kind(Random *random, const Family *family)
 
 static void draw_scene(Random *random, const Family *family, Scene *scene)
 {
-    Part last;
+    Primitive last;
     scene_init(scene);
     for (int i = 0; i < family->spheres; i++) {
         Vec3 centre = random_point(random, family->spread);
@@ -161,9 +163,9 @@ static void draw_scene(Random *random, const Family *family, Scene *scene)
         add_plane(scene, normal, random_between(random, -1, 1) * family->spread);
     }
     for (int i = 0; i < family->balls + family->others; i++) {
-        PartKind kind = i < family->balls ? PART_SPHERE : random_kind(random, family);
+        PrimitiveKind kind = i < family->balls ? PRIMITIVE_SPHERE : random_kind(random, family);
         last = random_solid(random, family, kind, i ? &last : NULL);
-        add_part(scene, &last);
+        add_primitive(scene, &last);
     }
     for (int i = 0; i < family->composites; i++) {
         add_composite(scene, random, family);
@@ -183,7 +185,7 @@ static void hits_try(const Geometry *g, unsigned features, const SphereTile *til
         bool is_met = geometry_closest(g, features, (Ray){ray.origin, ray.direction}, RAY_START_CAMERA,
                                        (double)INFINITY, &hit);
         found->met += is_met;
-        found->parts += is_met && shape_kind(hit.shape) == SHAPE_PART;
+        found->parts += is_met && shape_kind(hit.shape) == SHAPE_PRIMITIVE;
         found->hits += is_met != (hits->met >> i & 1) ||
                        (is_met && (memcmp(&hit.t, &hits->t[i], sizeof hit.t) != 0 || hit.shape != hits->shape[i] ||
                                    hit.inside != (hits->inside >> i & 1)));
@@ -221,7 +223,7 @@ static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces
     }
     uint64_t on_parts = 0;
     for (int i = 0; i < from->count; i++) {
-        on_parts |= asked & (uint64_t)shape_is_on_part(from->shape[i]) << i;
+        on_parts |= asked & (uint64_t)shape_is_on_primitive(from->shape[i]) << i;
     }
     g->kernels->shapes_occluded_surfaces(&g->shapes, from, &rays, start_error, on_parts, &left);
     found->together += __builtin_popcountll(on_parts & ~left);
@@ -262,18 +264,18 @@ static void surfaces_try(const Geometry *g, unsigned features, const SphereTile 
     }
 }
 
-// A tile of rays towards a part's middle, or, all of them nearly one, along its edge.
-static void aim(Random *random, const Family *family, const Part *part, Vec3 eye, SphereTile *tile)
+// A tile of rays towards a primitive's middle, or, all of them nearly one, along its edge.
+static void aim(Random *random, const Family *family, const Primitive *primitive, Vec3 eye, SphereTile *tile)
 {
-    const double *centre = part->to_world.m[3];
+    const double *centre = primitive->to_world.m[3];
     Vec3 towards = vec3_sub(vec3(centre[0], centre[1], centre[2]), eye);
     double step = family->size / vec3_length(towards) * pow(10.0, random_between(random, -2, 0));
-    Vec3 f = transform_point(&part->to_object, eye);
+    Vec3 f = transform_point(&primitive->to_object, eye);
     double sine = 1.0 / vec3_length(f);
     if (random_bits(random) % 3 == 0 && sine < 1.0) {
         Vec3 inward = vec3_normalize(vec3_neg(f)), aside = random_perpendicular(random, inward);
         Vec3 along = vec3_add_scaled(vec3_scale(sqrt(1.0 - sine * sine), inward), sine, aside);
-        towards = transform_direction(&part->to_world, along);
+        towards = transform_direction(&primitive->to_world, along);
         step = pow(10.0, random_between(random, -17, -6));
     }
     tile_of(random, eye, vec3_normalize(towards), step, tile);
@@ -291,7 +293,7 @@ static void test_family(uint64_t seed, const Family *family)
         SphereTile tile;
         double away = family->spread * (turn % 3 ? 4.0 : turn % 2 ? 300.0 : 0.5);
         Vec3 eye = vec3_scale(away, random_direction(&random));
-        aim(&random, family, &scene.parts.items[random_bits(&random) % scene.parts.count], eye, &tile);
+        aim(&random, family, &scene.primitives.items[random_bits(&random) % scene.primitives.count], eye, &tile);
         Vec3 way = random_direction(&random);
         Vec3 light = vec3_scale(family->spread * pow(10.0, random_between(&random, -1, 2)), way);
         double aside = turn % 4 ? 0.0 : family->spread * pow(10.0, random_between(&random, -3, 0));
@@ -320,13 +322,13 @@ static void test_family(uint64_t seed, const Family *family)
            found.dark, found.lit, found.together);
 }
 
-// The first end ahead of what a solid's own class says of a ray that is not asked by lanes; INFINITY: none.
-static double class_root(const Solid *solid, const Ray *ray)
+// The first end ahead of what a primitive's own class says of a ray that is not asked by lanes; INFINITY: none.
+static double class_root(const PreparedPrimitive *primitive, const Ray *ray)
 {
     RayInterval intervals[4];
-    Ray object = solid_ray(solid, ray);
+    Ray object = primitive_ray(primitive, ray);
     double root = (double)INFINITY;
-    unsigned count = solid_intervals(solid, &object, LEFT_NONE, intervals);
+    unsigned count = primitive_intervals(primitive, &object, LEFT_NONE, intervals);
     for (unsigned i = 0; i < count; i++) {
         root = intervals[i].enter > 0.0 && intervals[i].enter < root ? intervals[i].enter : root;
         root = intervals[i].leave > 0.0 && intervals[i].leave < root ? intervals[i].leave : root;
@@ -345,7 +347,7 @@ static Ray grazing_ray(Random *random, const Surface *surface, double away)
 
 // What lanes tell of a torus or quartic is what its own class says, of rays to it and about it, every second of which
 // grazes it.
-static void test_told(uint64_t seed, PartKind kind, double most)
+static void test_told(uint64_t seed, PrimitiveKind kind, double most)
 {
     Random random = {seed};
     int met = 0, missed = 0, wrong = 0;
@@ -353,20 +355,20 @@ static void test_told(uint64_t seed, PartKind kind, double most)
     for (int turn = 0; turn < 300; turn++) {
         Scene scene;
         scene_init(&scene);
-        Part part = part_at(&random, kind, 1.0, random_point(&random, 3.0));
-        add_part(&scene, &part);
+        Primitive primitive = part_at(&random, kind, 1.0, random_point(&random, 3.0));
+        add_primitive(&scene, &primitive);
         Geometry *g = prepare(&scene, 0);
         for (int i = 0; i < 200; i++) {
             double away = pow(10.0, random_between(&random, -1, 3));
             Vec3 eye = vec3_add_scaled(random_point(&random, 1.0), away, random_direction(&random));
-            Vec3 at = transform_point(&part.to_world, random_point(&random, 1.1));
+            Vec3 at = transform_point(&primitive.to_world, random_point(&random, 1.1));
             Ray ray = {eye, vec3_normalize(vec3_sub(at, eye))};
             Hit hit;
             if (i % 2 && closest(g, ray, RAY_START_CAMERA, (double)INFINITY, &hit)) {
                 Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit);
                 ray = grazing_ray(&random, &surface, away);
             }
-            double expected = class_root(&g->shapes.solids[0], &ray);
+            double expected = class_root(&g->shapes.primitives[0], &ray);
             bool is_met = closest(g, ray, RAY_START_CAMERA, (double)INFINITY, &hit);
             met += is_met;
             missed += !is_met;
@@ -379,14 +381,14 @@ static void test_told(uint64_t seed, PartKind kind, double most)
     }
     tap_ok(wrong == 0 && worst <= most && met > 5000 && missed > 5000,
            "%s: what is told of rays at once is what their class says (%d met, %d missed, %d wrong, off by %.2g)",
-           kind == PART_TORUS ? "tori" : "closed quartics", met, missed, wrong, worst);
+           kind == PRIMITIVE_TORUS ? "tori" : "closed quartics", met, missed, wrong, worst);
 }
 
 int main(void)
 {
     uint64_t seed = random_seed(NULL);
-    test_told(seed, PART_TORUS, 0x1p-52);
-    test_told(seed, PART_POLYNOMIAL, 0x1p-44);
+    test_told(seed, PRIMITIVE_TORUS, 0x1p-52);
+    test_told(seed, PRIMITIVE_POLYNOMIAL, 0x1p-44);
     for (size_t i = 0; i < RT_COUNT_OF(kinds); i++) {
         test_family(seed + i, &kinds[i]);
     }

@@ -10,24 +10,28 @@
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
 
-static const PartKind solid_kinds[] = {PART_SPHERE, PART_BOX, PART_CONE, PART_TORUS};
-static const PartKind alone_kinds[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE, PART_TORUS};
+static const PrimitiveKind solid_kinds[] = {PRIMITIVE_SPHERE, PRIMITIVE_BOX, PRIMITIVE_CONE, PRIMITIVE_TORUS};
+static const PrimitiveKind alone_kinds[] = {PRIMITIVE_BOX, PRIMITIVE_CONE, PRIMITIVE_DISC, PRIMITIVE_TRIANGLE,
+                                            PRIMITIVE_TORUS};
 
 // How far inside of its fixed shape a point of the scene is, in units of that shape; negative outside.
-static double depth(const Part *part, Vec3 point)
+static double depth(const Primitive *primitive, Vec3 point)
 {
-    Vec3 p = transform_point(&part->to_object, point);
+    Vec3 p = transform_point(&primitive->to_object, point);
     double round = hypot(p.x, p.y);
-    switch (part->kind) {
-    case PART_SPHERE:
+    switch (primitive->kind) {
+    case PRIMITIVE_SPHERE:
         return 1.0 - vec3_length(p);
-    case PART_BOX: {
-        Vec3 low = vec3_sub(p, part->data[0]), high = vec3_sub(part->data[1], p);
+    case PRIMITIVE_BOX: {
+        Vec3 low = vec3_sub(p, primitive->data[0]), high = vec3_sub(primitive->data[1], p);
         return fmin(fmin(fmin(low.x, low.y), low.z), fmin(fmin(high.x, high.y), high.z));
     }
-    case PART_CONE: return fmin(1.0 + (part->data[0].x - 1.0) * p.z - round, fmin(p.z, 1.0 - p.z));
-    case PART_TORUS: return part->data[0].y - hypot(hypot(p.x, p.z) - part->data[0].x, p.y);
-    case PART_DISC: return fmin(-fabs(p.z), fmin(1.0 - round, round - part->data[0].x));
+    case PRIMITIVE_CONE:
+        return fmin(1.0 + (primitive->data[0].x - 1.0) * p.z - round, fmin(p.z, 1.0 - p.z));
+    case PRIMITIVE_TORUS:
+        return primitive->data[0].y - hypot(hypot(p.x, p.z) - primitive->data[0].x, p.y);
+    case PRIMITIVE_DISC:
+        return fmin(-fabs(p.z), fmin(1.0 - round, round - primitive->data[0].x));
     default: return fmin(-fabs(p.z), fmin(fmin(p.x, p.y), 1.0 - p.x - p.y));
     }
 }
@@ -48,9 +52,9 @@ static void test_on_surface(void)
     int hits = 0, wrong_sides = 0;
     for (int i = 0; i < 4000; i++) {
         Scene scene;
-        Part part = random_part(&random, alone_kinds[i % 5], 1.0);
+        Primitive primitive = random_primitive(&random, alone_kinds[i % 5], 1.0);
         scene_init(&scene);
-        add_part(&scene, &part);
+        add_primitive(&scene, &primitive);
         Geometry *geometry = prepare(&scene, 0);
         for (int k = 0; k < 20; k++) {
             Ray ray = random_ray(&random, 1.0);
@@ -59,7 +63,7 @@ static void test_on_surface(void)
                 continue;
             }
             Surface surface = geometry_surface(geometry, TRACE_ALL_FEATURES, ray, hit);
-            worst = fmax(worst, fabs(depth(&part, surface.point)));
+            worst = fmax(worst, fabs(depth(&primitive, surface.point)));
             worst = fmax(worst, vec3_length(vec3_sub(surface.point, ray_at(ray, hit.t))));
             wrong_sides += (vec3_dot(surface.normal, ray.direction) > 0.0) != hit.inside;
             hits++;
@@ -81,15 +85,15 @@ static void test_tree(void)
     Geometry *single[COUNT];
     scene_init(&scene);
     for (int i = 0; i < COUNT; i++) {
-        Part part = random_part(&random, alone_kinds[i % 5], 0.05);
+        Primitive primitive = random_primitive(&random, alone_kinds[i % 5], 0.05);
         Scene one;
         scene_init(&one);
-        part.to_world = transform_compose(part.to_world, transform_translate(random_point(&random, 4.0)));
-        if (!transform_invert(&part.to_world, &part.to_object)) {
+        primitive.to_world = transform_compose(primitive.to_world, transform_translate(random_point(&random, 4.0)));
+        if (!transform_invert(&primitive.to_world, &primitive.to_object)) {
             abort();
         }
-        add_part(&scene, &part);
-        add_part(&one, &part);
+        add_primitive(&scene, &primitive);
+        add_primitive(&one, &primitive);
         single[i] = prepare(&one, 0);
         scene_fini(&one);
     }
@@ -123,9 +127,9 @@ static void test_secondary(double size)
     int false_hits = 0, wrong_exits = 0, rays = 0;
     for (int i = 0; i < 1500; i++) {
         Scene scene;
-        Part part = random_part(&random, i % 2 ? PART_BOX : PART_CONE, size);
+        Primitive primitive = random_primitive(&random, i % 2 ? PRIMITIVE_BOX : PRIMITIVE_CONE, size);
         scene_init(&scene);
-        add_part(&scene, &part);
+        add_primitive(&scene, &primitive);
         Geometry *geometry = prepare(&scene, ilogb(size));
         double unit = ldexp(1.0, -ilogb(size));
         for (int k = 0; k < 20; k++) {
@@ -171,10 +175,10 @@ static void grow(Scene *scene, Random *random, uint32_t parent, int level)
             }
             grow(scene, random, node, level + 1);
         } else {
-            Part part = random_part(random, solid_kinds[random_bits(random) % 4], 1.0);
-            part.node = parent;
-            part.flags = random_bits(random) % 4 == 0 ? PART_INVERSE : 0;
-            if (!scene_add_leaf(scene, &part)) {
+            Primitive primitive = random_primitive(random, solid_kinds[random_bits(random) % 4], 1.0);
+            primitive.node = parent;
+            primitive.flags = random_bits(random) % 4 == 0 ? PRIMITIVE_INVERSE : 0;
+            if (!scene_add_leaf(scene, &primitive)) {
                 abort();
             }
         }
@@ -193,11 +197,11 @@ static bool is_inside(const Scene *scene, uint32_t at, Vec3 point, bool *uncerta
             all = all && inside;
         }
     }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        const Part *part = &scene->parts.items[i];
-        if (part->node == at) {
-            double deep = depth(part, point);
-            bool inside = (deep > 0.0) != (bool)(part->flags & PART_INVERSE);
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        if (primitive->node == at) {
+            double deep = depth(primitive, point);
+            bool inside = (deep > 0.0) != (bool)(primitive->flags & PRIMITIVE_INVERSE);
             *uncertainty = *uncertainty || fabs(deep) < 1e-9;
             any = any || inside;
             all = all && inside;
@@ -292,13 +296,13 @@ static void test_coincident(void)
         Vec3 turn = random_vec3(&random, 0, 360);
         Transform map = transform_compose(transform_rotate(turn), transform_translate(random_point(&random, 3.0)));
         for (int k = 0; k < 2; k++) {
-            Part part = {.kind = PART_BOX, .node = root, .flags = k ? PART_INVERSE : 0};
+            Primitive primitive = {.kind = PRIMITIVE_BOX, .node = root, .flags = k ? PRIMITIVE_INVERSE : 0};
             double size = k ? 0.3 : 1.0;
             Transform own = transform_compose(transform_scale(vec3(size, 1.0 / 3.0, size)), map);
-            part.data[0] = vec3(-1.0, -3.0, -1.0);
-            part.data[1] = vec3(1.0, 3.0, 1.0);
-            part.to_world = own;
-            if (!transform_invert(&own, &part.to_object) || !scene_add_leaf(&scene, &part)) {
+            primitive.data[0] = vec3(-1.0, -3.0, -1.0);
+            primitive.data[1] = vec3(1.0, 3.0, 1.0);
+            primitive.to_world = own;
+            if (!transform_invert(&own, &primitive.to_object) || !scene_add_leaf(&scene, &primitive)) {
                 abort();
             }
         }
@@ -329,19 +333,19 @@ static void test_scale(void)
     int differ = 0, hits = 0;
     for (int i = 0; i < 200; i++) {
         Scene scenes[2];
-        Part part = random_part(&random, alone_kinds[i % 5], 1.0);
+        Primitive primitive = random_primitive(&random, alone_kinds[i % 5], 1.0);
         int k = (int)random_between(&random, -400, 400);
         Geometry *geometries[2];
         for (int which = 0; which < 2; which++) {
-            Part one = part;
+            Primitive one = primitive;
             one.to_world = transform_compose(
-                part.to_world,
+                primitive.to_world,
                 transform_scale(vec3(ldexp(1.0, which * k), ldexp(1.0, which * k), ldexp(1.0, which * k))));
             scene_init(&scenes[which]);
             if (!transform_invert(&one.to_world, &one.to_object)) {
                 abort();
             }
-            add_part(&scenes[which], &one);
+            add_primitive(&scenes[which], &one);
             geometries[which] = prepare(&scenes[which], which * k);
         }
         for (int r = 0; r < 50; r++) {
@@ -363,32 +367,33 @@ static void test_scale(void)
 // What stands for the error of a crossing where either gives the same answer is never less.
 static void test_bounds(void)
 {
-    static const PartKind kinds[] = {PART_SPHERE, PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE, PART_TORUS};
+    static const PrimitiveKind kinds[] = {PRIMITIVE_SPHERE, PRIMITIVE_BOX,      PRIMITIVE_CONE,
+                                          PRIMITIVE_DISC,   PRIMITIVE_TRIANGLE, PRIMITIVE_TORUS};
     Random random = {9};
     int asked = 0, less = 0, loose = 0;
     for (int i = 0; i < 3000; i++) {
         Scene scene;
         double size = ldexp(1.0, (int)(random_bits(&random) % 60) - 30);
-        Part part = random_part(&random, kinds[i % 6], size);
+        Primitive primitive = random_primitive(&random, kinds[i % 6], size);
         scene_init(&scene);
-        add_part(&scene, &part);
+        add_primitive(&scene, &primitive);
         Geometry *geometry = prepare(&scene, 0);
-        const Solid *solid = &geometry->shapes.solids[0];
+        const PreparedPrimitive *prepared = &geometry->shapes.primitives[0];
         for (int k = 0; k < 20; k++) {
-            Ray ray = random_ray(&random, size), object = solid_ray(solid, &ray);
+            Ray ray = random_ray(&random, size), object = primitive_ray(prepared, &ray);
             RayInterval intervals[2] = {INTERVAL_ALL}, interval;
             double t = 0.0;
-            if (solid_is_flat(solid) ? !solid_flat_root(solid, &object, &t)
-                                     : solid_intervals(solid, &object, LEFT_NONE, intervals) == 0) {
+            if (primitive_is_flat(prepared) ? !primitive_flat_root(prepared, &object, &t)
+                                            : primitive_intervals(prepared, &object, LEFT_NONE, intervals) == 0) {
                 continue;
             }
             interval = intervals[0];
             for (int end = 0; end < 2; end++) {
-                uint8_t side = solid_is_flat(solid) ? 0 : end ? interval.leave_side : interval.enter_side;
-                t = solid_is_flat(solid) ? t : end ? interval.leave : interval.enter;
+                uint8_t side = primitive_is_flat(prepared) ? 0 : end ? interval.leave_side : interval.enter_side;
+                t = primitive_is_flat(prepared) ? t : end ? interval.leave : interval.enter;
                 double span = vec3_sum_abs(ray.origin) + fabs(t) * vec3_sum_abs(ray.direction);
-                double error = solid_crossing_error(solid, &ray, &object, t, side);
-                double bound = solid_crossing_bound(solid, &ray, &object, t, side, span);
+                double error = primitive_crossing_error(prepared, &ray, &object, t, side);
+                double bound = primitive_crossing_bound(prepared, &ray, &object, t, side, span);
                 less += bound < error;
                 loose += bound > 100.0 * error;
                 asked++;

@@ -199,8 +199,8 @@ static bool same_spheres(const SphereTable *a, const SphereTable *b)
 static bool same_bytes(const Geometry *a, const Geometry *b)
 {
     return same_spheres(&a->spheres, &b->spheres) &&
-           solid_equal(&a->shapes.solids[0], &b->shapes.solids[0]) &&
-           memcmp(&a->shapes.solids[0].to_world, &b->shapes.solids[0].to_world, sizeof(Linear)) == 0 &&
+           primitive_equal(&a->shapes.primitives[0], &b->shapes.primitives[0]) &&
+           memcmp(&a->shapes.primitives[0].to_world, &b->shapes.primitives[0].to_world, sizeof(Linear)) == 0 &&
            memcmp(&a->planes[0].shape, &b->planes[0].shape, sizeof(PlaneShape)) == 0;
 }
 

@@ -34,8 +34,8 @@ __attribute__((unused)) static Geometry *prepare(const Scene *scene, int exponen
 
 __attribute__((unused)) static void add_ellipsoid(Scene *scene, Transform to_world)
 {
-    Part ball = {.kind = PART_SPHERE, .to_world = to_world};
-    if (!transform_invert(&to_world, &ball.to_object) || !scene_add_part(scene, &ball)) {
+    Primitive ball = {.kind = PRIMITIVE_SPHERE, .to_world = to_world};
+    if (!transform_invert(&to_world, &ball.to_object) || !scene_add_primitive(scene, &ball)) {
         abort();
     }
 }
@@ -133,28 +133,28 @@ __attribute__((unused)) static Transform random_map(Random *random, double size)
     return transform_compose(map, transform_translate(random_point(random, size)));
 }
 
-__attribute__((unused)) static Part random_part(Random *random, PartKind kind, double size)
+__attribute__((unused)) static Primitive random_primitive(Random *random, PrimitiveKind kind, double size)
 {
-    Part part = {.kind = kind, .node = NODE_NONE, .to_world = random_map(random, size)};
-    if (!transform_invert(&part.to_world, &part.to_object)) {
+    Primitive primitive = {.kind = kind, .node = NODE_NONE, .to_world = random_map(random, size)};
+    if (!transform_invert(&primitive.to_world, &primitive.to_object)) {
         abort();
     }
-    if (kind == PART_BOX) {
-        part.data[0] = vec3(-1.0, -1.0, -1.0);
-        part.data[1] = vec3(random_between(random, 0, 1), 1.0, 0.0);
-        part.data[1].z = random_between(random, -0.5, 1);
-    } else if (kind == PART_TORUS) {
-        part.data[0] = vec3(0.6, random_between(random, 0.01, 0.4), 0.0);
-    } else if (kind == PART_CONE || kind == PART_DISC) {
-        part.data[0].x = random_bits(random) % 3 == 0 ? 1.0 : random_between(random, 0, 0.9);
-        part.data[0].x = kind == PART_DISC ? 0.5 * part.data[0].x : part.data[0].x;
+    if (kind == PRIMITIVE_BOX) {
+        primitive.data[0] = vec3(-1.0, -1.0, -1.0);
+        primitive.data[1] = vec3(random_between(random, 0, 1), 1.0, 0.0);
+        primitive.data[1].z = random_between(random, -0.5, 1);
+    } else if (kind == PRIMITIVE_TORUS) {
+        primitive.data[0] = vec3(0.6, random_between(random, 0.01, 0.4), 0.0);
+    } else if (kind == PRIMITIVE_CONE || kind == PRIMITIVE_DISC) {
+        primitive.data[0].x = random_bits(random) % 3 == 0 ? 1.0 : random_between(random, 0, 0.9);
+        primitive.data[0].x = kind == PRIMITIVE_DISC ? 0.5 * primitive.data[0].x : primitive.data[0].x;
     }
-    return part;
+    return primitive;
 }
 
-__attribute__((unused)) static void add_part(Scene *scene, const Part *part)
+__attribute__((unused)) static void add_primitive(Scene *scene, const Primitive *primitive)
 {
-    if (!scene_add_part(scene, part)) {
+    if (!scene_add_primitive(scene, primitive)) {
         abort();
     }
 }

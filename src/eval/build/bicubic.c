@@ -253,7 +253,7 @@ static bool make_room(PatchDrawing *drawing)
 
 // The mesh stands around the first point, so that single precision does not suffer from where it is, and is made as the
 // scene's text says it: `flatness` does not grow with a scene that is drawn at another scale.
-ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *transform, Part *part)
+ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *transform, Primitive *primitive)
 {
     Transform own = transform_compose(*transform, world_inverse(ev));
     Vec3 points[4][4], origin = transform_point(&own, patch->points[0][0]);
@@ -275,11 +275,11 @@ ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *tran
         ev->faulty = ev->faulty || !is_fine;
         return is_fine ? SHAPE_NOTHING : SHAPE_FAULT;
     }
-    *part = part_empty(patch->part.span.begin);
-    part->kind = PART_MESH;
-    part->to_world = transform_compose(transform_translate(origin), world_transform(ev));
-    part->mesh = (PartMesh){mesh->low, mesh->high, mesh, 0};
-    return part_finish(part) ? SHAPE_MADE : SHAPE_FAULT;
+    *primitive = part_empty(patch->part.span.begin);
+    primitive->kind = PRIMITIVE_MESH;
+    primitive->to_world = transform_compose(transform_translate(origin), world_transform(ev));
+    primitive->mesh = (PrimitiveMesh){mesh->low, mesh->high, mesh, 0};
+    return part_finish(primitive) ? SHAPE_MADE : SHAPE_FAULT;
 }
 
 bool bicubic_box(const void *object, OwnBox *own)

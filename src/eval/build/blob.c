@@ -155,17 +155,17 @@ bool blob_blend(Eval *ev, const BlobDesc *blob, const TextureDesc *own, const Tr
     return true;
 }
 
-const char *blob_form(const void *object, Part *part)
+const char *blob_form(const void *object, Primitive *primitive)
 {
     const BlobDesc *blob = object;
     if (blob->count == 0) {
         return "a blob without components is not drawn";
     }
     const BlobNode *root = blob_of(blob->list.items).nodes;
-    part->kind = PART_BLOB;
-    part->fixed[0] = vec3(root->low[0], root->low[1], root->low[2]);
-    part->fixed[1] = vec3(root->high[0], root->high[1], root->high[2]);
-    part->list = blob->list;
+    primitive->kind = PRIMITIVE_BLOB;
+    primitive->fixed[0] = vec3(root->low[0], root->low[1], root->low[2]);
+    primitive->fixed[1] = vec3(root->high[0], root->high[1], root->high[2]);
+    primitive->list = blob->list;
     return blob->threshold > blob_of(blob->list.items).greatest
                ? "a blob whose strengths together are less than its threshold is not drawn"
                : NULL;

@@ -400,7 +400,7 @@ typedef struct ShapeClass {
     const char *fault;
     bool (*close)(Block *block); // at the closing brace; false after a fault; NULL: `settle` is enough
     // Kind, numbers and map, before all transforms. Why there is nothing to draw, or NULL. Of a plane NULL.
-    const char *(*form)(const void *object, Part *part);
+    const char *(*form)(const void *object, Primitive *part);
     bool (*has_inside)(const void *object); // NULL: as `is_flat` says
     bool (*holds)(const void *object, Vec3 point, bool is_turned); // inside of it, or of it turned; NULL: not to be asked
     bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself; it may be infinite
@@ -418,7 +418,7 @@ bool blob_close(Block *block) RT_MUST_CHECK;
 // `outer`.
 bool blob_blend(Eval *ev, const BlobDesc *blob, const TextureDesc *own, const Transform *outer,
                 TextureDesc *blend) RT_MUST_CHECK;
-const char *blob_form(const void *object, Part *part);
+const char *blob_form(const void *object, Primitive *primitive);
 bool blob_holds(const void *object, Vec3 point, bool is_turned);
 
 // isosurface.c
@@ -427,40 +427,40 @@ bool contained_by_action(Block *block, const SchemaProperty *property, const Ast
 bool container_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool isosurface_evaluate_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool isosurface_close(Block *block) RT_MUST_CHECK;
-// The part's function as one of the scene that it is put into.
-bool isosurface_place(Eval *ev, const void *object, Part *part) RT_MUST_CHECK;
-const char *isosurface_form(const void *object, Part *part); // these as in ShapeClass
+// The primitive's function as one of the scene that it is put into.
+bool isosurface_place(Eval *ev, const void *object, Primitive *primitive) RT_MUST_CHECK;
+const char *isosurface_form(const void *object, Primitive *primitive); // these as in ShapeClass
 bool isosurface_has(const void *object, Vec3 point, bool is_turned);
 bool isosurface_box(const void *object, OwnBox *own);
 
 // outline.c: prisms and polygons
 bool prism_body(Block *block) RT_MUST_CHECK;
 bool polygon_body(Block *block) RT_MUST_CHECK;
-const char *prism_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+const char *prism_form(const void *object, Primitive *primitive) RT_MUST_CHECK; // these as in ShapeClass
 bool prism_holds(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool prism_box(const void *object, OwnBox *own) RT_MUST_CHECK;
-const char *polygon_form(const void *object, Part *part) RT_MUST_CHECK;
+const char *polygon_form(const void *object, Primitive *primitive) RT_MUST_CHECK;
 bool polygon_box(const void *object, OwnBox *own) RT_MUST_CHECK;
 
 // revolved.c: lathes and surfaces of revolution
 bool lathe_body(Block *block) RT_MUST_CHECK;
 bool sor_body(Block *block) RT_MUST_CHECK;
-const char *lathe_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+const char *lathe_form(const void *object, Primitive *primitive) RT_MUST_CHECK; // these as in ShapeClass
 bool lathe_holds(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool lathe_box(const void *object, OwnBox *own);
-const char *sor_form(const void *object, Part *part) RT_MUST_CHECK;
+const char *sor_form(const void *object, Primitive *primitive) RT_MUST_CHECK;
 bool sor_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool sor_box(const void *object, OwnBox *own);
 
 // superellipsoid.c
 bool superellipsoid_body(Block *block) RT_MUST_CHECK;
-const char *superellipsoid_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+const char *superellipsoid_form(const void *object, Primitive *primitive) RT_MUST_CHECK; // these as in ShapeClass
 bool superellipsoid_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool superellipsoid_box(const void *object, OwnBox *own);
 
 // sweep.c: sphere sweeps
 bool sweep_body(Block *block) RT_MUST_CHECK;
-const char *sweep_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+const char *sweep_form(const void *object, Primitive *primitive) RT_MUST_CHECK; // these as in ShapeClass
 bool sweep_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool sweep_box(const void *object, OwnBox *own);
 
@@ -468,7 +468,7 @@ bool sweep_box(const void *object, OwnBox *own);
 bool julia_body(Block *block) RT_MUST_CHECK;
 bool julia_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool julia_close(Block *block) RT_MUST_CHECK; // this and these as in ShapeClass
-const char *julia_form(const void *object, Part *part) RT_MUST_CHECK;
+const char *julia_form(const void *object, Primitive *primitive) RT_MUST_CHECK;
 bool julia_has(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
 bool julia_box(const void *object, OwnBox *own);
 
@@ -484,19 +484,20 @@ bool shape_close(Block *block) RT_MUST_CHECK;
 // A pigment, normal or finish in the place of the texture's own.
 void texture_take_part(TextureDesc *texture, SchemaKind kind, const void *part);
 typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
-// A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. Nothing is
+// A shape's kind, map and data after a transform; everything else in *primitive is as for an unclipped one. Nothing is
 // reported: SHAPE_NOTHING: *why_nothing says why it has no extent; SHAPE_FAULT: the transform leaves nothing of it.
 // `is_stretched`: it is a sphere that sphere_image_radius has found to be none after its transforms, or one whose turn
 // is kept.
-ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *transform, bool is_stretched, Part *part,
-                       const char **why_nothing) RT_MUST_CHECK;
+ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *transform, bool is_stretched,
+                       Primitive *primitive, const char **why_nothing) RT_MUST_CHECK;
 // The same with a report of either, a warning or a fault.
 ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, bool is_stretched,
-                       Part *part);
+                       Primitive *primitive);
 // When all is said of a shape: signs that do not count are dropped. False: there is no such shape.
 bool shape_settle(SchemaKind kind, Desc *record) RT_MUST_CHECK;
 // That of a bicubic patch, in bicubic.c, whose mesh the scene then has; SHAPE_NOTHING: it has no surface.
-ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *transform, Part *part) RT_MUST_CHECK;
+ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *transform,
+                         Primitive *primitive) RT_MUST_CHECK;
 // The radius of a sphere under a transform; false when it is no sphere any more.
 bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.
@@ -511,15 +512,16 @@ bool box_fault_of_look(Eval *ev, Span span);
 // Such a sphere alone is not drawn, with a warning; at the end of a scene rtlang reports whether that was right.
 bool box_leave_out(Eval *ev, Span span) RT_MUST_CHECK;
 bool box_left_out_rightly(Eval *ev) RT_MUST_CHECK;
-// Where a ray may start inside of the shape that was placed last, with parts from `first_part` on: in the owner's box.
-bool box_note_start(Eval *ev, const BoxOwner *owner, size_t first_part) RT_MUST_CHECK;
+// Where a ray may start inside of the shape that was placed last, with parts from `first_primitive` on: in the owner's
+// box.
+bool box_note_start(Eval *ev, const BoxOwner *owner, size_t first_primitive) RT_MUST_CHECK;
 
 // place.c: an object and all that is in it become scene records.
 bool object_place(Eval *ev, SchemaKind kind, const void *object) RT_MUST_CHECK;
 // A sphere of a plain material; false after a fault.
 bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span) RT_MUST_CHECK;
 // The same for any other shape, whose material is set.
-bool part_place_plain(Eval *ev, Part *part, const Material *material, Span span) RT_MUST_CHECK;
+bool primitive_place_plain(Eval *ev, Primitive *primitive, const Material *material, Span span) RT_MUST_CHECK;
 // Whether what the scene takes, and so many bytes more, is within the limit of memory.
 bool memory_has(const Eval *ev, size_t bytes);
 // The same of the scene alone; what is beyond the limit is reported.

@@ -44,14 +44,14 @@ bool box_left_out_rightly(Eval *ev)
                       "a sphere of a negative radius in a scene of less than %d objects", BOXES_FROM);
 }
 
-// Of what fills a shape: from a part that its own interior is in, if there is one, else from any that is seen.
-static void start_material(const Scene *scene, StartShape *start, size_t first_part)
+// Of what fills a shape: from a primitive that its own interior is in, if there is one, else from any that is seen.
+static void start_material(const Scene *scene, StartShape *start, size_t first_primitive)
 {
-    for (size_t i = first_part; i < scene->parts.count && !start->is_filled; i++) {
-        const Part *part = &scene->parts.items[i];
-        if (!(part->flags & PART_UNSEEN)) {
-            start->material = part->material;
-            start->is_filled = part->body == 0;
+    for (size_t i = first_primitive; i < scene->primitives.count && !start->is_filled; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        if (!(primitive->flags & PRIMITIVE_UNSEEN)) {
+            start->material = primitive->material;
+            start->is_filled = primitive->body == 0;
         }
     }
 }
@@ -71,17 +71,17 @@ static bool scaled_box(const Eval *ev, const BoxOwner *owner, StartShape *start)
 }
 
 // Where a ray may start inside of the shape that was placed last, if that is not all of its inside.
-bool box_note_start(Eval *ev, const BoxOwner *owner, size_t first_part)
+bool box_note_start(Eval *ev, const BoxOwner *owner, size_t first_primitive)
 {
     Scene *scene = ev->scene;
     size_t last = scene->composites.count - 1; // wraps where there is none
     StartShape start = {.order = scene->shape_count - 1};
-    if (scene->parts.count == first_part) {
+    if (scene->primitives.count == first_primitive) {
         return true;
     }
     start.is_composite = scene->composites.count > 0 && scene->composites.items[last].order == start.order;
-    start.index = (uint32_t)(start.is_composite ? last : scene->parts.count - 1);
-    start_material(scene, &start, first_part);
+    start.index = (uint32_t)(start.is_composite ? last : scene->primitives.count - 1);
+    start_material(scene, &start, first_primitive);
     start.is_endless = scaled_box(ev, owner, &start);
     return ARRAY_PUSH(&scene->start_shapes, start) || eval_no_memory(ev, ((const ObjectPart *)owner->object)->span);
 }

@@ -271,7 +271,7 @@ static bool set_host(Block *block, const PaintedList *painted)
     return true;
 }
 
-bool isosurface_place(Eval *ev, const void *object, Part *part)
+bool isosurface_place(Eval *ev, const void *object, Primitive *primitive)
 {
     const IsosurfaceDesc *desc = object;
     Span span = desc->part.span;
@@ -279,9 +279,9 @@ bool isosurface_place(Eval *ev, const void *object, Part *part)
     if (!desc->host) {
         return true;
     }
-    part->host = scene_formula_host(ev->scene);
-    double *list = arena_copy(&ev->program, part->list.items, part->list.count * sizeof *list);
-    if (!part->host || !list) {
+    primitive->host = scene_formula_host(ev->scene);
+    double *list = arena_copy(&ev->program, primitive->list.items, primitive->list.count * sizeof *list);
+    if (!primitive->host || !list) {
         return eval_no_memory(ev, span);
     }
     FormulaStep *steps = (FormulaStep *)(void *)(list + ISOSURFACE_HEAD);
@@ -294,7 +294,7 @@ bool isosurface_place(Eval *ev, const void *object, Part *part)
             steps[i].which = pigment.pattern;
         }
     }
-    part->list.items = list;
+    primitive->list.items = list;
     return true;
 }
 
@@ -330,15 +330,15 @@ bool isosurface_close(Block *block)
 
 // ---- the shape
 
-const char *isosurface_form(const void *object, Part *part)
+const char *isosurface_form(const void *object, Primitive *primitive)
 {
     const IsosurfaceDesc *desc = object;
-    part->kind = PART_ISOSURFACE;
-    isosurface_bounds(isosurface_of(desc->list.items), &part->fixed[0], &part->fixed[1]);
-    part->list = desc->list;
-    part->host = desc->host;
-    bool is_flat = part->fixed[0].x == part->fixed[1].x || part->fixed[0].y == part->fixed[1].y ||
-                   part->fixed[0].z == part->fixed[1].z;
+    primitive->kind = PRIMITIVE_ISOSURFACE;
+    isosurface_bounds(isosurface_of(desc->list.items), &primitive->fixed[0], &primitive->fixed[1]);
+    primitive->list = desc->list;
+    primitive->host = desc->host;
+    bool is_flat = primitive->fixed[0].x == primitive->fixed[1].x || primitive->fixed[0].y == primitive->fixed[1].y ||
+                   primitive->fixed[0].z == primitive->fixed[1].z;
     return is_flat ? "an isosurface in a flat box is not drawn" : NULL;
 }
 

@@ -103,14 +103,14 @@ bool julia_close(Block *block)
                                             desc->precision, desc->step_count, work);
 }
 
-const char *julia_form(const void *object, Part *part)
+const char *julia_form(const void *object, Primitive *primitive)
 {
     const JuliaDesc *desc = object;
     double radius = julia_of(desc->list.items)->radius;
-    part->kind = PART_JULIA;
-    part->list = desc->list;
-    part->fixed[1] = vec3(radius, radius, radius);
-    part->fixed[0] = vec3_neg(part->fixed[1]);
+    primitive->kind = PRIMITIVE_JULIA;
+    primitive->list = desc->list;
+    primitive->fixed[1] = vec3(radius, radius, radius);
+    primitive->fixed[0] = vec3_neg(primitive->fixed[1]);
     return NULL;
 }
 

@@ -151,7 +151,7 @@ static bool place_source(const Builder *builder, const PatternPart *part, Patter
     if (part->warps && !warps_place(builder->ev, builder->scene, part->warps, builder->span, &pattern->warps)) {
         return false;
     }
-    if (pattern->type == PATTERN_SLOPE && pattern->is_solid) { // a point of the scene
+    if (pattern->type == PATTERN_SLOPE && (pattern->flags & PATTERN_TO_POINT)) { // a point of the scene
         Transform world = world_transform(builder->ev);
         pattern->vector = transform_point(&world, pattern->vector);
     }

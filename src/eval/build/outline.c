@@ -396,7 +396,7 @@ static void prism_extent(const PrismDesc *prism, OutlinePoint low, OutlinePoint 
     }
 }
 
-const char *prism_form(const void *object, Part *part)
+const char *prism_form(const void *object, Primitive *primitive)
 {
     const PrismDesc *prism = object;
     OutlinePoint low, high;
@@ -404,11 +404,11 @@ const char *prism_form(const void *object, Part *part)
         return "a prism without a height is not drawn";
     }
     outline_bounds(&prism->outline, &low, &high);
-    part->kind = PART_PRISM;
-    part->flags = prism->is_open ? PART_OPEN : 0;
-    part->list = prism->outline;
-    prism_extent(prism, low, high, &part->fixed[0], &part->fixed[1]);
-    part->to_world = transform_identity();
+    primitive->kind = PRIMITIVE_PRISM;
+    primitive->flags = prism->is_open ? PRIMITIVE_OPEN : 0;
+    primitive->list = prism->outline;
+    prism_extent(prism, low, high, &primitive->fixed[0], &primitive->fixed[1]);
+    primitive->to_world = transform_identity();
     return NULL;
 }
 
@@ -431,7 +431,7 @@ bool prism_box(const void *object, OwnBox *own)
     return false;
 }
 
-const char *polygon_form(const void *object, Part *part)
+const char *polygon_form(const void *object, Primitive *primitive)
 {
     const PolygonDesc *polygon = object;
     OutlinePoint low, high;
@@ -439,11 +439,11 @@ const char *polygon_form(const void *object, Part *part)
         return "a polygon with its points on one line is not drawn";
     }
     outline_bounds(&polygon->outline, &low, &high);
-    part->kind = PART_POLYGON;
-    part->list = polygon->outline;
-    part->fixed[0] = vec3(low.u, low.v, 0.0);
-    part->fixed[1] = vec3(high.u, high.v, 0.0);
-    part->to_world = polygon->frame;
+    primitive->kind = PRIMITIVE_POLYGON;
+    primitive->list = polygon->outline;
+    primitive->fixed[0] = vec3(low.u, low.v, 0.0);
+    primitive->fixed[1] = vec3(high.u, high.v, 0.0);
+    primitive->to_world = polygon->frame;
     return NULL;
 }
 

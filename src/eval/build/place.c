@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 #include "scene/room.h"
 
@@ -68,13 +68,13 @@ static bool place_plain_material(Eval *ev, const Placement *at, uint32_t inner_b
 }
 
 // A blob may have textures of its components.
-bool place_material(Eval *ev, const void *object, const Part *part, const Placement *at, uint32_t inner_body,
+bool place_material(Eval *ev, const void *object, const Primitive *primitive, const Placement *at, uint32_t inner_body,
                     MaterialIndex *material)
 {
     Span span = ((const ObjectPart *)object)->span;
     TextureDesc blend;
     Placement inner = *at;
-    if (part->kind == PART_BLOB && ((const BlobDesc *)object)->texture_count > 0) {
+    if (primitive->kind == PRIMITIVE_BLOB && ((const BlobDesc *)object)->texture_count > 0) {
         if (!blob_blend(ev, object, at->texture, &at->texture_outer, &blend)) {
             return false;
         }
@@ -137,19 +137,19 @@ bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *ma
             eval_no_memory(ev, span));
 }
 
-bool part_place_plain(Eval *ev, Part *part, const Material *material, Span span)
+bool primitive_place_plain(Eval *ev, Primitive *primitive, const Material *material, Span span)
 {
-    return place_may_add(ev, span) &&
-           ((scene_add_material_record(ev->scene, material, &part->material) && scene_add_part(ev->scene, part)) ||
-            eval_no_memory(ev, span));
+    return place_may_add(ev, span) && ((scene_add_material_record(ev->scene, material, &primitive->material) &&
+                                        scene_add_primitive(ev->scene, primitive)) ||
+                                       eval_no_memory(ev, span));
 }
 
-bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement *at, Part *part)
+bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement *at, Primitive *primitive)
 {
     Scene *scene = ev->scene;
     Span span = mesh->part.span;
-    part->mesh.materials = scene->face_materials.count;
-    for (uint32_t i = 0; i < part->mesh.mesh->texture_count; i++) { // a patch's has none
+    primitive->mesh.materials = scene->face_materials.count;
+    for (uint32_t i = 0; i < primitive->mesh.mesh->texture_count; i++) { // a patch's has none
         MaterialIndex material;
         CornerBlend blend;
         const TextureDesc *texture = i < mesh->single_count ? mesh->singles[i] : &blend.texture;
@@ -167,30 +167,31 @@ bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement *at, P
     return memory_suffices(ev, span);
 }
 
-static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, const Placement *inner, const Part *part)
+static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, const Placement *inner,
+                         const Primitive *primitive)
 {
     MaterialIndex material;
     Scene *scene = ev->scene;
     Span span = common->span;
     bool is_added;
-    if (!place_may_add(ev, span) || !place_material(ev, common, part, inner, 0, &material)) {
+    if (!place_may_add(ev, span) || !place_material(ev, common, primitive, inner, 0, &material)) {
         return false;
     }
-    if (is_plain && part->kind == PART_PLANE) {
-        is_added = scene_add_plane(scene, part->data[0], part->data[1].x, material, part->source);
+    if (is_plain && primitive->kind == PRIMITIVE_PLANE) {
+        is_added = scene_add_plane(scene, primitive->data[0], primitive->data[1].x, material, primitive->source);
     } else {
-        Part alone = *part;
+        Primitive alone = *primitive;
         alone.material = material;
         alone.hidden = inner->hidden;
-        alone.flags |= common->is_inverse ? PART_INVERSE : 0;
-        if (primitive_class(part->kind)->is_mesh &&
+        alone.flags |= common->is_inverse ? PRIMITIVE_INVERSE : 0;
+        if (primitive_class(primitive->kind)->is_mesh &&
             !place_face_materials(ev, (const MeshDesc *)common, inner, &alone)) {
             return false;
         }
-        if (part->kind == PART_ISOSURFACE && !isosurface_place(ev, common, &alone)) {
+        if (primitive->kind == PRIMITIVE_ISOSURFACE && !isosurface_place(ev, common, &alone)) {
             return false;
         }
-        is_added = scene_add_part(scene, &alone);
+        is_added = scene_add_primitive(scene, &alone);
     }
     return is_added || eval_no_memory(ev, span);
 }
@@ -223,7 +224,7 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
     if (is_round) {
         return is_placed;
     }
-    Part shape;
+    Primitive shape;
     bool is_stretched = may_be_round && !inner->clips; // it was found not to be round, or has a turn that is seen
     is_stretched |= kind == KIND_SPHERE && texture_asks_uv(inner->texture);
     ShapeResult result = shape_make(ev, kind, object, &inner->outer, is_stretched, &shape);
@@ -242,14 +243,14 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
 // A shape, or a group that is cut.
 static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner)
 {
-    size_t first_part = ev->scene->parts.count;
+    size_t first_primitive = ev->scene->primitives.count;
     bool is_placed = object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
                                            : place_shape(ev, kind, object, outer, inner);
     if (!is_placed || (!inner->clips && !extent_reaches_out(kind, object, false))) {
         return is_placed;
     }
     BoxOwner own = {kind, object, outer->outer};
-    return box_note_start(ev, inner->whole ? inner->whole : &own, first_part);
+    return box_note_start(ev, inner->whole ? inner->whole : &own, first_primitive);
 }
 
 // What a light looks like: an object by itself, but for the texture and interior of what is around.

@@ -41,16 +41,16 @@ uint8_t place_hidden(const ObjectPart *part);
 // Measured.
 bool place_is_hollow(SchemaKind kind, const void *object);
 
-// The material of an object, which is `part`. `inner_body`: Part.body of a leaf, else 0. What fills the first shape of a
-// body that is filled fills the body.
-bool place_material(Eval *ev, const void *object, const Part *part, const Placement *at, uint32_t inner_body,
+// The material of an object, which is `primitive`. `inner_body`: Primitive.body of a leaf, else 0. What fills the first
+// shape of a body that is filled fills the body.
+bool place_material(Eval *ev, const void *object, const Primitive *primitive, const Placement *at, uint32_t inner_body,
                     MaterialIndex *material) RT_MUST_CHECK;
 
 // The materials of a mesh's own textures, which move with it.
-bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement *at, Part *part) RT_MUST_CHECK;
+bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement *at, Primitive *primitive) RT_MUST_CHECK;
 
 // Whether anything is left to clip `shape`; NULL for what has no end or is not a single shape.
-bool place_clips_matter(Eval *ev, const ClipChain *chain, const Part *shape);
+bool place_clips_matter(Eval *ev, const ClipChain *chain, const Primitive *shape);
 
 // A light among shapes that are cut. False after a report: it looks like something.
 bool place_has_no_look(Eval *ev, const LightDesc *light) RT_MUST_CHECK;

@@ -3,14 +3,14 @@
 // SPDX-License-Identifier: MIT
 #include "eval/build/place.h"
 
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 
 // Where a part of a composite goes.
 typedef struct Branch {
     Placement placement;
     uint32_t parent; // node
-    uint32_t body;   // Part.body
+    uint32_t body;   // Primitive.body
     bool is_inverse; // one of those that a difference takes away
     bool was_turned; // as of an object: it, or a group around it
     bool is_unseen;
@@ -21,18 +21,19 @@ typedef struct Branch {
 // ---- clips
 
 // True when a clip is a box or plane that all of the shape is inside of, so that it clips nothing.
-static bool clip_is_idle(Eval *ev, const Clip *clip, const Transform *outer, const Part *shape)
+static bool clip_is_idle(Eval *ev, const Clip *clip, const Transform *outer, const Primitive *shape)
 {
     const ObjectPart *common = clip->object;
-    Part part;
+    Primitive primitive;
     if ((clip->kind != KIND_BOX && clip->kind != KIND_PLANE) || common->is_inverse || common->clips) {
         return false;
     }
     Transform whole = transform_compose(transform_compose(common->transform, clip->transform), *outer);
-    return shape_make(ev, clip->kind, clip->object, &whole, false, &part) == SHAPE_MADE && part_contains(&part, shape);
+    return shape_make(ev, clip->kind, clip->object, &whole, false, &primitive) == SHAPE_MADE &&
+           primitive_contains(&primitive, shape);
 }
 
-bool place_clips_matter(Eval *ev, const ClipChain *chain, const Part *shape)
+bool place_clips_matter(Eval *ev, const ClipChain *chain, const Primitive *shape)
 {
     for (; chain; chain = chain->next) {
         for (const Clip *clip = chain->clips; clip; clip = clip->next) {
@@ -62,7 +63,8 @@ static bool add_node(Eval *ev, NodeOp op, bool is_inverse, const Branch *branch,
 
 static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *branch);
 
-static bool grow_clips(Eval *ev, const ClipChain *chain, const Part *shape, const Branch *object_branch, uint32_t node)
+static bool grow_clips(Eval *ev, const ClipChain *chain, const Primitive *shape, const Branch *object_branch,
+                       uint32_t node)
 {
     Scene *scene = ev->scene;
     for (; chain; chain = chain->next) {
@@ -100,14 +102,14 @@ static bool grow_nothing(Eval *ev, SchemaKind kind, const ObjectPart *part, cons
 }
 
 // Intervals of a line in all parts of a composite: of a stack of STACK_BYTES they take half.
-enum { COMPOSITE_INTERVALS_MOST = 2 * COMPOSITE_PARTS_MOST };
+enum { COMPOSITE_INTERVALS_MOST = 2 * COMPOSITE_PRIMITIVES_MOST };
 
-// Whether a ray has room for one more part. Those whose intervals are few are held by their number.
-static bool has_stack(const Scene *scene, const Composite *composite, const Part *part)
+// Whether a ray has room for one more primitive. Those whose intervals are few are held by their number.
+static bool has_stack(const Scene *scene, const Composite *composite, const Primitive *primitive)
 {
-    uint64_t sum = primitive_intervals(part);
-    for (size_t i = composite->first_part; sum > 2 && i < scene->parts.count; i++) {
-        sum += primitive_intervals(&scene->parts.items[i]);
+    uint64_t sum = primitive_interval_most(primitive);
+    for (size_t i = composite->first_primitive; sum > 2 && i < scene->primitives.count; i++) {
+        sum += primitive_interval_most(&scene->primitives.items[i]);
     }
     return sum <= COMPOSITE_INTERVALS_MOST;
 }
@@ -117,7 +119,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     const ObjectPart *common = object;
     const Placement *around = &branch->placement;
     const Composite *composite = &ev->scene->composites.items[ev->scene->composites.count - 1];
-    Part part;
+    Primitive primitive;
     if (branch->is_in_box && box_is_inside_out(kind, object)) {
         return box_fault(ev, common->span);
     }
@@ -126,39 +128,40 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
                           "a bicubic_patch has no inside, and POV-Ray does not clip it: nothing can be cut with it");
     }
     bool keeps_turn = !branch->is_unseen && kind == KIND_SPHERE && texture_asks_uv(around->texture);
-    ShapeResult result = shape_make(ev, kind, object, &around->outer, keeps_turn, &part);
+    ShapeResult result = shape_make(ev, kind, object, &around->outer, keeps_turn, &primitive);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING && grow_nothing(ev, kind, common, branch);
     }
     // Flat ones may be clipped, which is their first node then.
     const Node *parent = &ev->scene->nodes.items[branch->parent];
     bool is_clipped_alone = parent->op == NODE_CLIP && parent->child_count == 0 && parent->parent == NODE_NONE;
-    if (primitive_is_flat(part.kind) && !is_clipped_alone) {
+    if (primitive_kind_is_flat(primitive.kind) && !is_clipped_alone) {
         return eval_fault(ev, DIAG_E0362, common->span, "a %s has no inside, so nothing can be cut with it",
-                          primitive_class(primitive_class(part.kind)->surface)->word);
+                          primitive_class(primitive_class(primitive.kind)->surface)->word);
     }
-    if (ev->scene->parts.count - composite->first_part >= COMPOSITE_PARTS_MOST) {
+    if (ev->scene->primitives.count - composite->first_primitive >= COMPOSITE_PRIMITIVES_MOST) {
         return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
-                          COMPOSITE_PARTS_MOST);
+                          COMPOSITE_PRIMITIVES_MOST);
     }
-    if (part.kind == PART_ISOSURFACE && !isosurface_place(ev, object, &part)) {
+    if (primitive.kind == PRIMITIVE_ISOSURFACE && !isosurface_place(ev, object, &primitive)) {
         return false;
     }
-    if (!has_stack(ev->scene, composite, &part)) {
+    if (!has_stack(ev->scene, composite, &primitive)) {
         return eval_fault(ev, DIAG_E0363, common->span,
                           "a line may cross the shapes that are cut here more than %d times",
                           2 * COMPOSITE_INTERVALS_MOST);
     }
-    part.node = branch->parent;
-    part.body = branch->body;
-    part.flags |= (common->is_inverse != branch->is_inverse ? PART_INVERSE : 0) | (branch->is_unseen ? PART_UNSEEN : 0);
+    primitive.node = branch->parent;
+    primitive.body = branch->body;
+    primitive.flags |=
+        (common->is_inverse != branch->is_inverse ? PRIMITIVE_INVERSE : 0) | (branch->is_unseen ? PRIMITIVE_UNSEEN : 0);
     if (!place_may_add(ev, common->span) ||
-        (!branch->is_unseen && !place_material(ev, object, &part, around, branch->body, &part.material)) ||
-        (!branch->is_unseen && primitive_class(part.kind)->is_mesh &&
-         !place_face_materials(ev, object, around, &part))) {
+        (!branch->is_unseen && !place_material(ev, object, &primitive, around, branch->body, &primitive.material)) ||
+        (!branch->is_unseen && primitive_class(primitive.kind)->is_mesh &&
+         !place_face_materials(ev, object, around, &primitive))) {
         return false;
     }
-    return scene_add_leaf(ev->scene, &part) || eval_no_memory(ev, common->span);
+    return scene_add_leaf(ev->scene, &primitive) || eval_no_memory(ev, common->span);
 }
 
 static bool grow_members(Eval *ev, SchemaKind kind, const UnionDesc *group, const Branch *outer, NodeOp op)
@@ -232,11 +235,11 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
     if (!clips) {
         return grow_object(ev, kind, object, &branch);
     }
-    Part shape;
+    Primitive shape;
     // A clip is not turned round with what it clips: what is outside of a shape reaches beyond any clip.
     bool is_known = !object_is_group(kind) && kind != KIND_BICUBIC_PATCH && part->is_inverse == branch.is_inverse &&
                     shape_make(ev, kind, object, &branch.placement.outer, false, &shape) == SHAPE_MADE;
-    const Part *known = is_known ? &shape : NULL;
+    const Primitive *known = is_known ? &shape : NULL;
     if (!place_clips_matter(ev, clips, known)) {
         return grow_object(ev, kind, object, &branch);
     }

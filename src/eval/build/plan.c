@@ -439,5 +439,5 @@ bool plan_make(const Eval *ev, const GrammarPlan *plan, const PlanNumbers *numbe
 bool plan_add(Eval *ev, PlanMade *made, Span span)
 {
     return made->is_sphere ? sphere_place_plain(ev, made->centre, made->radius, &made->material, span)
-                           : part_place_plain(ev, &made->part, &made->material, span);
+                           : primitive_place_plain(ev, &made->part, &made->material, span);
 }

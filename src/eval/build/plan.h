@@ -54,7 +54,7 @@ typedef struct PlanMade {
     bool is_sphere;
     Vec3 centre;
     double radius;
-    Part part; // of any other shape; its material is not set
+    Primitive part; // of any other shape; its material is not set
     Material material;
 } PlanMade;
 

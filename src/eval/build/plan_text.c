@@ -55,7 +55,7 @@ static void begin_trial(Eval *ev, const AstNode *item, SchemaKind kind, PlanTria
     scene_end_share(ev->scene); // else the next sphere takes the place of another process's
     trial->shapes = ev->scene->shape_count;
     trial->spheres = ev->scene->spheres.count;
-    trial->parts = ev->scene->parts.count;
+    trial->parts = ev->scene->primitives.count;
     trial->messages = message_count(ev);
     plan_streams_keep(ev, &trial->streams);
 }
@@ -96,7 +96,7 @@ void plan_note(Eval *ev, PlanTrial *trial, SchemaKind kind, const Desc *record)
     trial->plan = is_plain ? trial->plan : NULL;
 }
 
-static bool parts_equal(const Part *one, const Part *other)
+static bool parts_equal(const Primitive *one, const Primitive *other)
 {
     return one->kind == other->kind && one->flags == other->flags && one->hidden == other->hidden &&
            one->node == other->node && one->body == other->body && one->source == other->source &&
@@ -109,7 +109,8 @@ static bool parts_equal(const Part *one, const Part *other)
 static bool is_made(const Scene *scene, const PlanTrial *trial, const PlanMade *made, Span span)
 {
     if (!made->is_sphere) {
-        return scene->parts.count == trial->parts + 1 && parts_equal(&scene->parts.items[trial->parts], &made->part);
+        return scene->primitives.count == trial->parts + 1 &&
+               parts_equal(&scene->primitives.items[trial->parts], &made->part);
     }
     const Sphere *sphere = &scene->spheres.items[trial->spheres];
     return scene->spheres.count == trial->spheres + 1 && memcmp(&sphere->centre, &made->centre, sizeof made->centre) == 0 &&
@@ -118,9 +119,9 @@ static bool is_made(const Scene *scene, const PlanTrial *trial, const PlanMade *
 
 static bool take_material(const Scene *scene, const PlanTrial *trial)
 {
-    bool is_sphere = scene->spheres.count == trial->spheres + 1, is_part = scene->parts.count == trial->parts + 1;
+    bool is_sphere = scene->spheres.count == trial->spheres + 1, is_part = scene->primitives.count == trial->parts + 1;
     MaterialIndex index = is_sphere ? scene->spheres.items[trial->spheres].material
-                          : is_part ? scene->parts.items[trial->parts].material
+                          : is_part ? scene->primitives.items[trial->parts].material
                                     : MATERIAL_COMPOUND;
     if (index & MATERIAL_COMPOUND) {
         return false;

@@ -111,13 +111,13 @@ bool builtin_inside(Eval *ev, const AstNode *node, Value *value)
 
 static bool add_leaf(Eval *ev, Probe *probe, const ProbeNode *node, const Transform *inner)
 {
-    Part part;
-    switch (shape_make(ev, node->kind, node->object, inner, false, &part)) {
+    Primitive primitive;
+    switch (shape_make(ev, node->kind, node->object, inner, false, &primitive)) {
     case SHAPE_NOTHING: return true;
     case SHAPE_FAULT: return false;
     case SHAPE_MADE: break;
     }
-    bool is_kept = scene_add_part(&probe->shapes, &part) && ARRAY_PUSH(&probe->leaves, node);
+    bool is_kept = scene_add_primitive(&probe->shapes, &primitive) && ARRAY_PUSH(&probe->leaves, node);
     return is_kept || eval_no_memory(ev, ((const ObjectPart *)node->object)->span);
 }
 

@@ -126,7 +126,7 @@ static double greatest_radius(OutlinePoint low, OutlinePoint high)
     return fmax(fabs(low.u), fabs(high.u));
 }
 
-const char *lathe_form(const void *object, Part *part)
+const char *lathe_form(const void *object, Primitive *primitive)
 {
     const LatheDesc *lathe = object;
     OutlinePoint low, high;
@@ -138,11 +138,11 @@ const char *lathe_form(const void *object, Part *part)
     if (radius == 0.0) {
         return "a lathe along its axis is not drawn";
     }
-    part->kind = PART_LATHE;
-    part->list = lathe->outline;
-    part->fixed[0] = vec3(-radius, low.v, -radius);
-    part->fixed[1] = vec3(radius, high.v, radius);
-    part->to_world = transform_identity();
+    primitive->kind = PRIMITIVE_LATHE;
+    primitive->list = lathe->outline;
+    primitive->fixed[0] = vec3(-radius, low.v, -radius);
+    primitive->fixed[1] = vec3(radius, high.v, radius);
+    primitive->to_world = transform_identity();
     return NULL;
 }
 
@@ -221,18 +221,18 @@ static void sor_extent(const Numbers *list, double radius, Vec3 *low, Vec3 *high
     *high = vec3(radius, sor_height(list, sor_stretch_count(list)), radius);
 }
 
-const char *sor_form(const void *object, Part *part)
+const char *sor_form(const void *object, Primitive *primitive)
 {
     const SorDesc *sor = object;
     double radius = sor_radius_most(&sor->list);
     if (radius == 0.0) {
         return "a sor of no radius is not drawn";
     }
-    part->kind = PART_SOR;
-    part->flags = sor->is_open ? PART_OPEN : 0;
-    part->list = sor->list;
-    sor_extent(&sor->list, radius, &part->fixed[0], &part->fixed[1]);
-    part->to_world = transform_identity();
+    primitive->kind = PRIMITIVE_SOR;
+    primitive->flags = sor->is_open ? PRIMITIVE_OPEN : 0;
+    primitive->list = sor->list;
+    sor_extent(&sor->list, radius, &primitive->fixed[0], &primitive->fixed[1]);
+    primitive->to_world = transform_identity();
     return NULL;
 }
 

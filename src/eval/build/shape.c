@@ -1,4 +1,4 @@
-// Shapes: a description's numbers and a transform become a fixed shape under an affine map (scene.h, PartKind).
+// Shapes: a description's numbers and a transform become a fixed shape under an affine map (scene.h, PrimitiveKind).
 //
 // A shape that is the fixed one already, under a matrix, gets that matrix bit for bit, so that a scene dump reads back
 // as the same records. Knows nothing of composites and textures.
@@ -45,7 +45,7 @@ bool shape_flattened(Eval *ev, const ObjectPart *part)
 }
 
 // The image of n·p = d under p' = p M + t is n'·p' = d' with n' = M^-1 n (as a row vector n M^-T) and d' = d + n'·t.
-static ShapeResult plane_form(const PlaneDesc *plane, const Transform *transform, Part *part)
+static ShapeResult plane_form(const PlaneDesc *plane, const Transform *transform, Primitive *primitive)
 {
     Transform back;
     if (!transform_invert(transform, &back)) {
@@ -60,9 +60,9 @@ static ShapeResult plane_form(const PlaneDesc *plane, const Transform *transform
     if (!vec3_is_finite(unit) || !isfinite(distance) || vec3_equal(unit, vec3(0.0, 0.0, 0.0))) {
         return SHAPE_FAULT;
     }
-    part->kind = PART_PLANE;
-    part->data[0] = unit;
-    part->data[1] = vec3(distance, 0.0, 0.0);
+    primitive->kind = PRIMITIVE_PLANE;
+    primitive->data[0] = unit;
+    primitive->data[1] = vec3(distance, 0.0, 0.0);
     return SHAPE_MADE;
 }
 
@@ -77,32 +77,32 @@ static Transform sphere_to_world(const SphereDesc *sphere, const Transform *ball
                              transform_translate(transform_point(transform, sphere->centre)));
 }
 
-ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *transform, bool is_stretched, Part *part,
-                       const char **why_nothing)
+ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *transform, bool is_stretched,
+                       Primitive *primitive, const char **why_nothing)
 {
-    *part = part_empty(((const ObjectPart *)object)->span.begin);
+    *primitive = part_empty(((const ObjectPart *)object)->span.begin);
     if (kind == KIND_PLANE) {
-        return plane_form(object, transform, part);
+        return plane_form(object, transform, primitive);
     }
-    *why_nothing = shape_class(kind)->form(object, part);
+    *why_nothing = shape_class(kind)->form(object, primitive);
     if (*why_nothing) {
         return SHAPE_NOTHING;
     }
     bool is_sphere = kind == KIND_SPHERE && !is_stretched;
-    part->to_world = kind == KIND_BOX ? *transform
-                     : is_sphere      ? sphere_to_world(object, &part->to_world, transform)
-                                      : transform_compose(part->to_world, *transform);
-    return part_finish(part) ? SHAPE_MADE : SHAPE_FAULT;
+    primitive->to_world = kind == KIND_BOX ? *transform
+                          : is_sphere      ? sphere_to_world(object, &primitive->to_world, transform)
+                                           : transform_compose(primitive->to_world, *transform);
+    return part_finish(primitive) ? SHAPE_MADE : SHAPE_FAULT;
 }
 
 ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, bool is_stretched,
-                       Part *part)
+                       Primitive *primitive)
 {
     const ObjectPart *common = object;
     const char *why_nothing = "a bicubic_patch has no surface: all its triangles are lines";
     ShapeResult result = kind == KIND_BICUBIC_PATCH
-                             ? bicubic_make(ev, object, transform, part)
-                             : shape_form(kind, object, transform, is_stretched, part, &why_nothing);
+                             ? bicubic_make(ev, object, transform, primitive)
+                             : shape_form(kind, object, transform, is_stretched, primitive, &why_nothing);
     if (result == SHAPE_NOTHING) {
         eval_warn(ev, DIAG_W0348, common->span, "%s", why_nothing);
     } else if (result == SHAPE_FAULT && kind != KIND_BICUBIC_PATCH) {

@@ -1,5 +1,6 @@
 // What the language says of each kind of shape, a row a kind: when it is one, how it becomes a fixed shape under a map
-// (scene.h, PartKind), which points are inside of it for `inside`, and POV-Ray's box for min_extent and max_extent.
+// (scene.h, PrimitiveKind), which points are inside of it for `inside`, and POV-Ray's box for min_extent and
+// max_extent.
 //
 // Knows nothing of composites, textures and rays.
 //
@@ -18,10 +19,10 @@ static const double plane_tolerance = 1e-10;
 
 // ---- sphere and plane: their extents follow rules of their own
 
-static const char *sphere_form(const void *object, Part *part)
+static const char *sphere_form(const void *object, Primitive *primitive)
 {
     const SphereDesc *sphere = object;
-    return part_make_ball(part, sphere->centre, fabs(sphere->radius));
+    return primitive_make_ball(primitive, sphere->centre, fabs(sphere->radius));
 }
 
 // Nothing is on either side of its surface.
@@ -48,10 +49,10 @@ static bool plane_holds(const void *object, Vec3 p, bool is_turned)
 
 // ---- box
 
-static const char *box_form(const void *object, Part *part)
+static const char *box_form(const void *object, Primitive *primitive)
 {
     const BoxDesc *box = object;
-    part_make_box(part, box->corner, box->other_corner);
+    primitive_make_box(primitive, box->corner, box->other_corner);
     return NULL;
 }
 
@@ -108,10 +109,10 @@ static bool cylinder_settle(Desc *record)
     return !vec3_equal(record->cylinder.base, record->cylinder.cap);
 }
 
-static const char *cylinder_form(const void *object, Part *part)
+static const char *cylinder_form(const void *object, Primitive *primitive)
 {
     const CylinderDesc *c = object;
-    return part_make_cylinder(part, c->base, c->cap, c->radius, c->is_open);
+    return primitive_make_cylinder(primitive, c->base, c->cap, c->radius, c->is_open);
 }
 
 static bool cylinder_holds(const void *object, Vec3 p, bool is_turned)
@@ -131,10 +132,10 @@ static bool cone_settle(Desc *record)
     return !vec3_equal(record->cone.base, record->cone.cap);
 }
 
-static const char *cone_form(const void *object, Part *part)
+static const char *cone_form(const void *object, Primitive *primitive)
 {
     const ConeDesc *c = object;
-    return part_make_cone(part, c->base, c->base_radius, c->cap, c->cap_radius, c->is_open);
+    return primitive_make_cone(primitive, c->base, c->base_radius, c->cap, c->cap_radius, c->is_open);
 }
 
 static bool cone_holds(const void *object, Vec3 p, bool is_turned)
@@ -158,10 +159,10 @@ static bool disc_settle(Desc *record)
     return true;
 }
 
-static const char *disc_form(const void *object, Part *part)
+static const char *disc_form(const void *object, Primitive *primitive)
 {
     const DiscDesc *disc = object;
-    return part_make_disc(part, disc->centre, disc->normal, disc->radius, disc->hole);
+    return primitive_make_disc(primitive, disc->centre, disc->normal, disc->radius, disc->hole);
 }
 
 static bool disc_holds(const void *object, Vec3 p, bool is_turned)
@@ -182,7 +183,7 @@ static bool disc_box(const void *object, OwnBox *own)
 // ---- torus
 
 // The fixed one is as large as a power of two leaves it, so that it is the same when a dump is read.
-static const char *torus_form(const void *object, Part *part)
+static const char *torus_form(const void *object, Primitive *primitive)
 {
     const TorusDesc *torus = object;
     int exponent;
@@ -191,9 +192,9 @@ static const char *torus_form(const void *object, Part *part)
     }
     frexp(torus->major + torus->minor, &exponent);
     double size = ldexp(1.0, exponent);
-    part->kind = PART_TORUS;
-    part->data[0] = vec3(ldexp(torus->major, -exponent), ldexp(torus->minor, -exponent), 0.0);
-    part->to_world = transform_scale(vec3(size, size, size));
+    primitive->kind = PRIMITIVE_TORUS;
+    primitive->data[0] = vec3(ldexp(torus->major, -exponent), ldexp(torus->minor, -exponent), 0.0);
+    primitive->to_world = transform_scale(vec3(size, size, size));
     return NULL;
 }
 
@@ -257,10 +258,10 @@ static bool polynomial_close(Block *block)
     return true;
 }
 
-static const char *polynomial_form(const void *object, Part *part)
+static const char *polynomial_form(const void *object, Primitive *primitive)
 {
     const PolynomialDesc *polynomial = object;
-    polynomial_part(&polynomial->list, part);
+    polynomial_part(&polynomial->list, primitive);
     return polynomial_is_constant(polynomial->list.items) ? "a polynomial that is the same everywhere is not drawn"
                                                           : NULL;
 }
@@ -298,25 +299,25 @@ static bool quadric_holds(const void *object, Vec3 p, bool is_turned)
 
 // ---- triangles: their boxes are those of their corners in the scene
 
-static const char *triangle_form(const void *object, Part *part)
+static const char *triangle_form(const void *object, Primitive *primitive)
 {
     const TriangleDesc *triangle = object;
-    return part_make_triangle(part, triangle->corners);
+    return primitive_make_triangle(primitive, triangle->corners);
 }
 
-static const char *smooth_triangle_form(const void *object, Part *part)
+static const char *smooth_triangle_form(const void *object, Primitive *primitive)
 {
     const SmoothTriangleDesc *triangle = object;
-    return part_make_smooth_triangle(part, triangle->corners, triangle->normals);
+    return primitive_make_smooth_triangle(primitive, triangle->corners, triangle->normals);
 }
 
 // ---- meshes
 
-static const char *mesh_form(const void *object, Part *part)
+static const char *mesh_form(const void *object, Primitive *primitive)
 {
     const Mesh *mesh = ((const MeshDesc *)object)->mesh;
-    part->kind = mesh->has_inside ? PART_MESH_SOLID : PART_MESH;
-    part->mesh = (PartMesh){mesh->low, mesh->high, mesh, 0};
+    primitive->kind = mesh->has_inside ? PRIMITIVE_MESH_SOLID : PRIMITIVE_MESH;
+    primitive->mesh = (PrimitiveMesh){mesh->low, mesh->high, mesh, 0};
     return NULL;
 }
 
@@ -349,13 +350,13 @@ static bool field_box(const void *object, OwnBox *own)
     return false;
 }
 
-static const char *field_form(const void *object, Part *part)
+static const char *field_form(const void *object, Primitive *primitive)
 {
     const Mesh *mesh = ((const MeshDesc *)object)->mesh;
     OwnBox box;
     (void)field_box(object, &box);
-    part->kind = PART_MESH_SOLID;
-    part->mesh = (PartMesh){box.low, box.high, mesh, 0};
+    primitive->kind = PRIMITIVE_MESH_SOLID;
+    primitive->mesh = (PrimitiveMesh){box.low, box.high, mesh, 0};
     return box.low.y > box.high.y ? "it is all below its water level" : NULL;
 }
 

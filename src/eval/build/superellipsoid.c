@@ -40,12 +40,12 @@ bool superellipsoid_body(Block *block)
                                       "the exponents of a superellipsoid must be greater than 0, not %g", least);
 }
 
-const char *superellipsoid_form(const void *object, Part *part)
+const char *superellipsoid_form(const void *object, Primitive *primitive)
 {
     const SuperellipsoidDesc *shape = object;
-    part->kind = PART_SUPERELLIPSOID;
-    part->data[0] = vec3(shape->about, shape->along, 0.0);
-    part->to_world = transform_identity();
+    primitive->kind = PRIMITIVE_SUPERELLIPSOID;
+    primitive->data[0] = vec3(shape->about, shape->along, 0.0);
+    primitive->to_world = transform_identity();
     return NULL;
 }
 

@@ -159,7 +159,7 @@ bool sweep_body(Block *block)
     return true;
 }
 
-const char *sweep_form(const void *object, Part *part)
+const char *sweep_form(const void *object, Primitive *primitive)
 {
     const SweepDesc *desc = object;
     Sweep sweep = sweep_of(desc->list.items);
@@ -168,11 +168,11 @@ const char *sweep_form(const void *object, Part *part)
     for (uint32_t i = 0; i < sweep.ball_count; i++) {
         most = fmax(most, sweep.balls[i].radius);
     }
-    part->kind = PART_SWEEP;
-    part->list = desc->list;
-    part->fixed[0] = box.low;
-    part->fixed[1] = box.high;
-    part->to_world = transform_scale(vec3(desc->size, desc->size, desc->size));
+    primitive->kind = PRIMITIVE_SWEEP;
+    primitive->list = desc->list;
+    primitive->fixed[0] = box.low;
+    primitive->fixed[1] = box.high;
+    primitive->to_world = transform_scale(vec3(desc->size, desc->size, desc->size));
     return most > 0.0 ? NULL : "a sphere sweep with radii of 0 is not drawn";
 }
 

@@ -333,7 +333,7 @@ static bool add_number(Compiler *compiler, Chain *chain, const AstNode *at, cons
     return true;
 }
 
-static bool add_part(Compiler *compiler, Chain *chain, const AstNode *at, const AstNode *part)
+static bool add_primitive(Compiler *compiler, Chain *chain, const AstNode *at, const AstNode *part)
 {
     FunctionNode *made = compile(compiler, part);
     if (made == NULL) {
@@ -356,14 +356,14 @@ static bool read_chain(Compiler *compiler, const AstNode *node, Chain *chain)
     bool goes_on = left->kind == AST_BINARY && !(left->flags & AST_IN_PARENTHESES) && !is_logic(left) &&
                    rank_of((AstOp)left->op) == rank_of((AstOp)node->op);
     if (!goes_on) {
-        return add_part(compiler, chain, NULL, left) && add_part(compiler, chain, node, node->b);
+        return add_primitive(compiler, chain, NULL, left) && add_primitive(compiler, chain, node, node->b);
     }
     if (!eval_deepen(compiler->ev, 1, left->span)) {
         return false;
     }
     bool fine = read_chain(compiler, left, chain);
     eval_shallow(compiler->ev, 1);
-    return fine && add_part(compiler, chain, node, node->b);
+    return fine && add_primitive(compiler, chain, node, node->b);
 }
 
 static FunctionNode *compile_binary(Compiler *compiler, const AstNode *node)

@@ -53,20 +53,20 @@ bool paste_is_needed(const Eval *ev, const AstNode *node)
 // Items of a block are walked with their directives, wherever it stands.
 static bool has_directive(const Eval *ev, const AstNode *node)
 {
-    bool has_parts = node->kind != AST_NUMBER && !(node->flags & AST_KNOWN) && node->kind != AST_BLOCK;
+    bool has_primitives = node->kind != AST_NUMBER && !(node->flags & AST_KNOWN) && node->kind != AST_BLOCK;
     if (node->kind == AST_CALL && node->b == NULL) {
         const Value *found = scope_find(ev, node->symbol);
         if (found != NULL && found->kind == VALUE_MACRO) {
             return true;
         }
     }
-    for (const AstNode *part = has_parts ? node->a : NULL; part != NULL; part = part->next) {
+    for (const AstNode *part = has_primitives ? node->a : NULL; part != NULL; part = part->next) {
         if (has_directive(ev, part)) {
             return true;
         }
     }
-    return node->kind == AST_INLINE || (has_parts && node->b != NULL && has_directive(ev, node->b)) ||
-           (has_parts && node->c != NULL && has_directive(ev, node->c));
+    return node->kind == AST_INLINE || (has_primitives && node->b != NULL && has_directive(ev, node->b)) ||
+           (has_primitives && node->c != NULL && has_directive(ev, node->c));
 }
 
 bool paste_is_needed_in_function(const Eval *ev, const AstNode *function)

@@ -48,7 +48,7 @@ typedef struct EvalNames {
 typedef struct EvalHit {
     Vec3 point, normal; // of unit length, outward
     uint32_t shape;     // the tracer's own
-    uint32_t part;      // Part.order
+    uint32_t part;      // Primitive.order
 } EvalHit;
 
 // The tracer, which the evaluator itself must not know.

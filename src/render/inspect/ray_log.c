@@ -8,7 +8,7 @@
 #include "render/records/camera.h"
 #include "render/sample/scratch.h"
 #include "render/shade/surface_uv.h"
-#include "scene/part.h"
+#include "scene/primitive_reach.h"
 
 enum {
     RAYS_MOST = 1000,   // that are told of
@@ -125,22 +125,22 @@ static LoggedSphere stretched(const Follower *follower, Ray object, const StartS
 }
 
 // Balls among the parts. Of one that is cut, what its roots lead to is decided with the rest of the composite.
-static void follow_part(Follower *follower, LoggedRay *ray, const StackedRay *now, uint32_t index, bool is_of_few)
+static void follow_primitive(Follower *follower, LoggedRay *ray, const StackedRay *now, uint32_t index, bool is_of_few)
 {
-    const Solid *solid = &follower->p->geometry->shapes.solids[index];
-    uint64_t source = follower->p->scene->parts.items[index].source;
-    bool is_cut = solid->node != NODE_NONE, is_round = part_map_is_round(solid->to_world.m);
-    bool is_start =
-        !is_cut && starts_on_part(now->start) && table_part(&follower->p->geometry->shapes, now->start.shape) == index;
-    double radius = fabs(solid->to_world.m[0][0]);
-    SphereData ball = is_round ? (SphereData){solid->centre, radius * radius} : UNIT_SPHERE;
-    StartSphere on = {0, now->start.inward != solid->flips,
+    const PreparedPrimitive *primitive = &follower->p->geometry->shapes.primitives[index];
+    uint64_t source = follower->p->scene->primitives.items[index].source;
+    bool is_cut = primitive->node != NODE_NONE, is_round = primitive_map_is_round(primitive->to_world.m);
+    bool is_start = !is_cut && starts_on_primitive(now->start) &&
+                    table_primitive_index(&follower->p->geometry->shapes, now->start.shape) == index;
+    double radius = fabs(primitive->to_world.m[0][0]);
+    SphereData ball = is_round ? (SphereData){primitive->centre, radius * radius} : UNIT_SPHERE;
+    StartSphere on = {0, now->start.inward != primitive->flips,
                       is_start ? ball : (SphereData){{0.0, 0.0, 0.0}, (double)NAN}};
-    Ray object = solid_ray(solid, &now->ray);
+    Ray object = primitive_ray(primitive, &now->ray);
     LoggedSphere sphere;
     if (is_round) {
         sphere = (LoggedSphere){
-            .source = source, .centre = in_scene(follower, solid->centre), .radius = radius * follower->scale};
+            .source = source, .centre = in_scene(follower, primitive->centre), .radius = radius * follower->scale};
         textbook(&sphere, now->ray, &ball, follower->scale, follower->scale);
         certify(&sphere, now->ray, &ball, &on, follower->scale);
     } else {
@@ -151,7 +151,8 @@ static void follow_part(Follower *follower, LoggedRay *ray, const StackedRay *no
         sphere.is_misjudged = false;
         sphere.t = sphere.bound = 0.0;
     } else if (sphere.t > 0.0) {
-        sphere.bound = solid_ball_error(solid, &now->ray, &object, sphere.t / follower->scale) * follower->scale;
+        sphere.bound =
+            primitive_ball_error(primitive, &now->ray, &object, sphere.t / follower->scale) * follower->scale;
     }
     keep_sphere(follower, ray, &sphere, is_of_few);
 }
@@ -162,7 +163,7 @@ static void follow_spheres(Follower *follower, LoggedRay *ray, const StackedRay 
     const Geometry *g = follower->p->geometry;
     const SphereTable *table = &g->spheres;
     StartSphere on = query_start_sphere(g, TRACE_ALL_FEATURES, now->start);
-    bool is_of_few = table->count + g->shapes.solid_count <= SPHERES_FEW;
+    bool is_of_few = table->count + g->shapes.primitive_count <= SPHERES_FEW;
     ray->first_sphere = follower->ray_log->spheres.count;
     for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
         SphereData ball = sphere_table_ball(table, slot);
@@ -178,9 +179,9 @@ static void follow_spheres(Follower *follower, LoggedRay *ray, const StackedRay 
         }
         keep_sphere(follower, ray, &sphere, is_of_few);
     }
-    for (uint32_t i = 0; i < g->shapes.solid_count; i++) {
-        if (g->shapes.solids[i].kind == PART_SPHERE && !(g->shapes.solids[i].hidden & now->start.use)) {
-            follow_part(follower, ray, now, i, is_of_few);
+    for (uint32_t i = 0; i < g->shapes.primitive_count; i++) {
+        if (g->shapes.primitives[i].kind == PRIMITIVE_SPHERE && !(g->shapes.primitives[i].hidden & now->start.use)) {
+            follow_primitive(follower, ray, now, i, is_of_few);
         }
     }
     ray->sphere_count = follower->ray_log->spheres.count - ray->first_sphere;
@@ -221,15 +222,16 @@ static void name_shape(const Follower *follower, const ShadingPoint *at, const R
         error = plane_error(&g->planes[index].shape, ray, t);
         break;
     case SHAPE_FACE:
-    case SHAPE_PART: {
-        const Solid *solid = table_solid(&g->shapes, at->shape);
-        Ray object = solid_ray(solid, ray);
-        const Part *part = &scene->parts.items[table_part(&g->shapes, at->shape)];
-        out->shape = part_name(part);
-        out->source = part->source;
-        error = solid_is_mesh(solid) ? shapes_error(&g->shapes, ray, &object, t, at->shape)
-                : solid->kind == PART_SPHERE ? solid_ball_error(solid, ray, &object, t)
-                                           : solid_crossing_error(solid, ray, &object, t, part_side(at->shape));
+    case SHAPE_PRIMITIVE: {
+        const PreparedPrimitive *prepared = table_primitive(&g->shapes, at->shape);
+        Ray object = primitive_ray(prepared, ray);
+        const Primitive *primitive = &scene->primitives.items[table_primitive_index(&g->shapes, at->shape)];
+        out->shape = primitive_name(primitive);
+        out->source = primitive->source;
+        error = primitive_is_mesh(prepared) ? shapes_error(&g->shapes, ray, &object, t, at->shape)
+                : prepared->kind == PRIMITIVE_SPHERE
+                    ? primitive_ball_error(prepared, ray, &object, t)
+                    : primitive_crossing_error(prepared, ray, &object, t, primitive_side(at->shape));
         break;
     }
     }

@@ -8,10 +8,10 @@
 
 // What the kernel has; a feature that is added later is refused until it is put here.
 enum {
-    COVERED = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
-              RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_EXPONENT | RENDER_PIGMENTS | RENDER_TEXTURES |
+    COVERED = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS | RENDER_BRILLIANCE |
+              RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_EXPONENT | RENDER_PIGMENTS | RENDER_TEXTURES |
               RENDER_INTERIORS,
-    REFUSED_WITH_PLACE = TRACE_PARTS | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG | RENDER_NORMALS,
+    REFUSED_WITH_PLACE = TRACE_PRIMITIVES | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG | RENDER_NORMALS,
 };
 
 static const StudyKernel colours[STUDY_PRECISIONS] = {
@@ -53,13 +53,13 @@ static bool compound_is_plain(const Scene *scene, const Compound *compound)
            texture->pigment.pattern == RECORD_NONE && texture->normal == RECORD_NONE;
 }
 
-// Whether the part, or a face of it, has the material.
-static bool part_shows(const Scene *scene, const Part *part, MaterialIndex material)
+// Whether the primitive, or a face of it, has the material.
+static bool part_shows(const Scene *scene, const Primitive *primitive, MaterialIndex material)
 {
-    bool does = part->material == material;
-    if (part->kind == PART_MESH || part->kind == PART_MESH_SOLID) {
-        for (uint32_t i = 0; i < part->mesh.mesh->texture_count && !does; i++) {
-            does = scene->face_materials.items[part->mesh.materials + i] == material;
+    bool does = primitive->material == material;
+    if (primitive->kind == PRIMITIVE_MESH || primitive->kind == PRIMITIVE_MESH_SOLID) {
+        for (uint32_t i = 0; i < primitive->mesh.mesh->texture_count && !does; i++) {
+            does = scene->face_materials.items[primitive->mesh.materials + i] == material;
         }
     }
     return does;
@@ -79,9 +79,9 @@ static uint64_t compound_source(const Scene *scene, size_t compound)
             return scene->planes.items[i].source;
         }
     }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        if (part_shows(scene, &scene->parts.items[i], material)) {
-            return scene->parts.items[i].source;
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        if (part_shows(scene, &scene->primitives.items[i], material)) {
+            return scene->primitives.items[i].source;
         }
     }
     return 0;
@@ -91,10 +91,11 @@ bool study_covers(const Prepared *p, DiagSink *diags)
 {
     const Scene *scene = p->scene;
     bool covers = lights_are_covered(scene, p, diags);
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        const Part *part = &scene->parts.items[i];
-        if (part->kind != PART_SPHERE || part->node != NODE_NONE || part->hidden || part->flags) {
-            covers = refuse(diags, scene_source_span(part->source), "a shape other than spheres and planes");
+    for (size_t i = 0; i < scene->primitives.count; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        if (primitive->kind != PRIMITIVE_SPHERE || primitive->node != NODE_NONE || primitive->hidden ||
+            primitive->flags) {
+            covers = refuse(diags, scene_source_span(primitive->source), "a shape other than spheres and planes");
             break;
         }
     }

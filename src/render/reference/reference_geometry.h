@@ -202,7 +202,7 @@ static Real real_sphere_root(const RealScene *s, uint32_t index, const RealRay *
 }
 
 // The ray in the space of a part, which is a ball alone.
-static RealRay real_ball_ray(const RealScene *s, const Part *ball, const RealRay *ray)
+static RealRay real_ball_ray(const RealScene *s, const Primitive *ball, const RealRay *ray)
 {
     const double *centre = ball->to_world.m[3];
     RealVec offset = real_sub(ray->e, real_scale(s->inverse_scale, real_vec(vec3(centre[0], centre[1], centre[2]))));
@@ -213,8 +213,8 @@ static RealRay real_ball_ray(const RealScene *s, const Part *ball, const RealRay
 
 static Real real_part_root(const RealScene *s, uint32_t index, const RealRay *ray, RealStart start, bool *inside)
 {
-    RealRay object = real_ball_ray(s, &s->scene->parts.items[index], ray);
-    if (real_starts_on(start, SHAPE_PART) && start.index == index) {
+    RealRay object = real_ball_ray(s, &s->scene->primitives.items[index], ray);
+    if (real_starts_on(start, SHAPE_PRIMITIVE) && start.index == index) {
         *inside = true;
         return start.inward ? real_ball_inward(object.e, object.d) : 0;
     }
@@ -254,10 +254,10 @@ static bool real_closest(const RealScene *s, const RealRay *ray, RealStart start
         Real t = real_sphere_root(s, i, ray, start, &inside);
         real_offer(hit, &has_hit, t, inside, SHAPE_SPHERE, i, scene_sphere_order(s->scene, i));
     }
-    for (uint32_t i = 0; i < s->scene->parts.count; i++) {
+    for (uint32_t i = 0; i < s->scene->primitives.count; i++) {
         bool inside = false;
         Real t = real_part_root(s, i, ray, start, &inside);
-        real_offer(hit, &has_hit, t, inside, SHAPE_PART, i, s->scene->parts.items[i].order);
+        real_offer(hit, &has_hit, t, inside, SHAPE_PRIMITIVE, i, s->scene->primitives.items[i].order);
     }
     for (uint32_t i = 0; i < s->scene->planes.count; i++) {
         bool inside;
@@ -279,8 +279,8 @@ static void real_surface(const RealScene *s, const RealRay *ray, RealHit *hit)
                                      : real_add_scaled(real_scale(s->inverse_scale, real_vec(sphere->centre)), radius,
                                                        hit->normal);
         hit->material = sphere->material;
-    } else if (hit->kind == SHAPE_PART) {
-        const Part *ball = &s->scene->parts.items[hit->index];
+    } else if (hit->kind == SHAPE_PRIMITIVE) {
+        const Primitive *ball = &s->scene->primitives.items[hit->index];
         const double(*m)[3] = ball->to_object.m, *centre = ball->to_world.m[3];
         RealRay object = real_ball_ray(s, ball, ray);
         RealVec n = real_unit(real_add_scaled(object.e, hit->t, object.d));

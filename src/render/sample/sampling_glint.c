@@ -327,7 +327,7 @@ bool glints_find(Small *small, const RenderOptions *options, SpotIsNarrow *is_na
     for (size_t i = 0; i < p->finish_count; i++) {
         any_sharp = any_sharp || is_sharp(&p->finishes[i]);
     }
-    if (!any_sharp || !(p->features & (RENDER_NORMALS | TRACE_PARTS))) {
+    if (!any_sharp || !(p->features & (RENDER_NORMALS | TRACE_PRIMITIVES))) {
         return true;
     }
     size_t pixels = (size_t)film->width * (size_t)film->height;

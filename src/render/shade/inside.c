@@ -127,7 +127,7 @@ static bool starts_inside(const Scene *scene, const StartShape *shape, Vec3 p)
     bool is_in_box = p.x >= shape->low.x && p.x <= shape->high.x && p.y >= shape->low.y && p.y <= shape->high.y &&
                      p.z >= shape->low.z && p.z <= shape->high.z;
     return is_in_box && (shape->is_composite ? within_composite(scene, &scene->composites.items[shape->index], p)
-                                             : within_part(&scene->parts.items[shape->index], p));
+                                             : within_part(&scene->primitives.items[shape->index], p));
 }
 
 // Those whose surface does not tell.

@@ -165,7 +165,7 @@ static void wait_for_divided(LightGrid *grid)
     grid->is_whole = false;
 }
 
-static void add_part(LightGrid *grid, const LightPart *part)
+static void add_primitive(LightGrid *grid, const LightPart *part)
 {
     Rgb sum = rgb_grey(0.0);
     for (int corner = 0; corner < 4; corner++) {
@@ -181,7 +181,7 @@ static void next_of_adaptive(LightGrid *grid, Rgb arriving)
     while (grid->count > 0 && grid->asked_count == 0) {
         const LightPart *part = &grid->parts[--grid->count];
         if (!is_divided(grid->area, part, arriving)) {
-            add_part(grid, part);
+            add_primitive(grid, part);
             continue;
         }
         grid->divided = *part;

@@ -1,12 +1,13 @@
-// Some rays against a solid of a kind that has a test in lanes, in the solid's own space: part of spheres_kernel.c.
+// Some rays against a primitive of a kind that has a test in lanes, in the primitive's own space: part of
+// spheres_kernel.c.
 //
-// Operations and their order are those of solid_ray and of sphere_test, or of cone_interval, box_interval and
+// Operations and their order are those of primitive_ray and of sphere_test, or of cone_interval, box_interval and
 // flat_root, so the bits are the same. Whatever takes a way that ordinary rays do not take (along a face, grazing,
 // through a tip) is not certain: it is asked by itself.
 //
 // SPDX-License-Identifier: MIT
-#ifndef TRACE_SOLID_LANES_H
-#define TRACE_SOLID_LANES_H
+#ifndef TRACE_PRIMITIVE_LANES_H
+#define TRACE_PRIMITIVE_LANES_H
 
 #include <float.h>
 
@@ -72,78 +73,78 @@ RT_ALWAYS_INLINE void lanes_sub(const Doubles a[3], const Doubles b[3], Doubles 
 
 // ---- errors
 
-// No crossing of a solid at t is off by more than (fixed + slope t) / |n·d|, for d in its space and the gradient n
-// there: that is solid_crossing_error's bound, made of lengths instead of coordinates, with a tenth more for their
+// No crossing of a primitive at t is off by more than (fixed + slope t) / |n·d|, for d in its space and the gradient n
+// there: that is primitive_crossing_error's bound, made of lengths instead of coordinates, with a tenth more for their
 // rounding.
 typedef struct LaneSlack {
     double fixed, slope;
 } LaneSlack;
 
 // The greatest that a component of a gradient is on the surface.
-RT_ALWAYS_INLINE double gradient_most(const Solid *solid)
+RT_ALWAYS_INLINE double gradient_most(const PreparedPrimitive *primitive)
 {
-    if (solid->kind == PART_TORUS) {
-        return 1.1 * solid->data[0].y; // it is as long as the tube is thick
+    if (primitive->kind == PRIMITIVE_TORUS) {
+        return 1.1 * primitive->data[0].y; // it is as long as the tube is thick
     }
-    if (solid->kind == PART_POLYNOMIAL) { // it is the polynomial's own
-        const double *sizes = polynomial_sizes(solid->list.items);
-        double r = greater_of(vec3_max_abs(solid->fixed[0]), vec3_max_abs(solid->fixed[1]));
+    if (primitive->kind == PRIMITIVE_POLYNOMIAL) { // it is the polynomial's own
+        const double *sizes = polynomial_sizes(primitive->list.items);
+        double r = greater_of(vec3_max_abs(primitive->fixed[0]), vec3_max_abs(primitive->fixed[1]));
         return 1.1 * (((4.0 * sizes[4] * r + 3.0 * sizes[3]) * r + 2.0 * sizes[2]) * r + sizes[1]);
     }
-    double ratio = solid->kind == PART_CONE ? solid->data[0].x : 1.0;
+    double ratio = primitive->kind == PRIMITIVE_CONE ? primitive->data[0].x : 1.0;
     double radius = greater_of(1.0, ratio);
     return 1.1 * radius * greater_of(1.0, fabs(1.0 - ratio));
 }
 
 // For rays whose origins are no farther from 0 than `far` and whose directions are of about unit length.
-RT_ALWAYS_INLINE LaneSlack lane_slack(const Solid *solid, double far)
+RT_ALWAYS_INLINE LaneSlack lane_slack(const PreparedPrimitive *primitive, double far)
 {
-    const double *columns = &solid->columns.x;
-    const Vec3 low = solid->data[0], high = solid->data[1];
-    double sizes = (solid->traits & SOLID_SIZED) ? vec3_sum_abs(low) + vec3_sum_abs(high) : 3.0;
-    double unit = 1.1 * TRANSFORM_ROUNDING * gradient_most(solid), sum = columns[0] + columns[1] + columns[2];
-    double fixed = unit * (sum * (far + vec3_length(solid->centre) + solid->extent) + sizes);
+    const double *columns = &primitive->columns.x;
+    const Vec3 low = primitive->data[0], high = primitive->data[1];
+    double sizes = (primitive->traits & TRAIT_SIZED) ? vec3_sum_abs(low) + vec3_sum_abs(high) : 3.0;
+    double unit = 1.1 * TRANSFORM_ROUNDING * gradient_most(primitive), sum = columns[0] + columns[1] + columns[2];
+    double fixed = unit * (sum * (far + vec3_length(primitive->centre) + primitive->extent) + sizes);
     return (LaneSlack){fixed, 1.1 * unit * sum};
 }
 
 // ---- what is met
 
-// The first root of some rays that is ahead, into the solid or out of it.
-typedef struct SolidLanes {
+// The first root of some rays that is ahead, into the primitive or out of it.
+typedef struct PrimitiveLanes {
     unsigned possible; // not missed
     unsigned certain;  // the others' roots mean nothing
     unsigned leaves;   // it is met from the inside; of what is flat: from below
     DoublesMask side;  // none of a ball
     Doubles root;      // of a ball approximate
     Doubles bound;     // of how far that and its error reach
-} SolidLanes;
+} PrimitiveLanes;
 
 // A solid and what is the same for all rays.
-typedef struct LaneSolid {
-    const Solid *solid;
+typedef struct LanePrimitive {
+    const PreparedPrimitive *solid;
     Linears to_object;
     Doubles centre[3];
     LaneSlack slack;
     Vec3 normal; // of a disc or triangle
-} LaneSolid;
+} LanePrimitive;
 
 // `far` as in lane_slack.
-RT_ALWAYS_INLINE void lane_solid_set(LaneSolid *own, const Solid *solid, double far)
+RT_ALWAYS_INLINE void lane_primitive_set(LanePrimitive *own, const PreparedPrimitive *primitive, double far)
 {
-    own->solid = solid;
-    own->slack = lane_slack(solid, far);
-    own->centre[0] = doubles_splat(solid->centre.x);
-    own->centre[1] = doubles_splat(solid->centre.y);
-    own->centre[2] = doubles_splat(solid->centre.z);
-    linears_splat(&solid->to_object, &own->to_object);
-    if (solid_is_flat(solid)) {
-        own->normal = vec3_normalize(linear_normal(&solid->to_object, vec3(0.0, 0.0, 1.0)));
+    own->solid = primitive;
+    own->slack = lane_slack(primitive, far);
+    own->centre[0] = doubles_splat(primitive->centre.x);
+    own->centre[1] = doubles_splat(primitive->centre.y);
+    own->centre[2] = doubles_splat(primitive->centre.z);
+    linears_splat(&primitive->to_object, &own->to_object);
+    if (primitive_is_flat(primitive)) {
+        own->normal = vec3_normalize(linear_normal(&primitive->to_object, vec3(0.0, 0.0, 1.0)));
     }
 }
 
-// solid_ray of some rays.
-RT_ALWAYS_INLINE void lane_solid_ray(const LaneSolid *own, const double origin[3][TILE_RAYS],
-                                     const double direction[3][TILE_RAYS], unsigned at, Doubles f[3], Doubles d[3])
+// primitive_ray of some rays.
+RT_ALWAYS_INLINE void lane_primitive_ray(const LanePrimitive *own, const double origin[3][TILE_RAYS],
+                                         const double direction[3][TILE_RAYS], unsigned at, Doubles f[3], Doubles d[3])
 {
     Doubles from[3], along[3];
     lanes_load(origin, at, from);
@@ -155,7 +156,7 @@ RT_ALWAYS_INLINE void lane_solid_ray(const LaneSolid *own, const double origin[3
 
 // False when all of `asked` are missed; nothing else is set then. `f` and `d` are in the ball's space.
 RT_ALWAYS_INLINE bool ball_lanes(const Doubles f[3], const Doubles d[3], const LaneSlack *slack, unsigned asked,
-                                      SolidLanes *lanes)
+                                 PrimitiveLanes *lanes)
 {
     Doubles inverse_square = 1.0 / lanes_dot(d, d);
     const Doubles direction_over_length2[3] = {inverse_square * d[0], inverse_square * d[1], inverse_square * d[2]};
@@ -220,11 +221,11 @@ RT_ALWAYS_INLINE void interval_lanes_meet(IntervalLanes *interval, const Interva
 }
 
 // What convex_closest offers of an interval: its first end that is ahead and has a surface. False: no ray has any.
-RT_ALWAYS_INLINE bool interval_lanes_first(const LaneSolid *own, const IntervalLanes *interval, unsigned asked,
-                                           SolidLanes *lanes)
+RT_ALWAYS_INLINE bool interval_lanes_first(const LanePrimitive *own, const IntervalLanes *interval, unsigned asked,
+                                           PrimitiveLanes *lanes)
 {
     const Doubles zero = doubles_splat(0.0);
-    DoublesMask hidden = (DoublesMask){0} - ((own->solid->flags & PART_OPEN) != 0);
+    DoublesMask hidden = (DoublesMask){0} - ((own->solid->flags & PRIMITIVE_OPEN) != 0);
     DoublesMask enters = (interval->enter > zero) & ~(hidden & (interval->enter_side != 0));
     DoublesMask leaves = (interval->leave > zero) & ~(hidden & (interval->leave_side != 0));
     unsigned ahead = doubles_mask_bits((interval->enter <= interval->leave) & (enters | leaves));
@@ -238,8 +239,8 @@ RT_ALWAYS_INLINE bool interval_lanes_first(const LaneSolid *own, const IntervalL
     return lanes->possible;
 }
 
-RT_ALWAYS_INLINE bool box_lanes(const LaneSolid *own, const Doubles f[3], const Doubles d[3], unsigned asked,
-                                SolidLanes *lanes)
+RT_ALWAYS_INLINE bool box_lanes(const LanePrimitive *own, const Doubles f[3], const Doubles d[3], unsigned asked,
+                                PrimitiveLanes *lanes)
 {
     const double *low = &own->solid->data[0].x, *high = &own->solid->data[1].x;
     IntervalLanes interval, slab;
@@ -254,8 +255,8 @@ RT_ALWAYS_INLINE bool box_lanes(const LaneSolid *own, const Doubles f[3], const 
 }
 
 // cone_roots and cone_interval. Lines along the side, or next to grazing it, are not certain.
-RT_ALWAYS_INLINE bool cone_lanes(const LaneSolid *own, const Doubles f[3], const Doubles d[3], unsigned asked,
-                                 SolidLanes *lanes)
+RT_ALWAYS_INLINE bool cone_lanes(const LanePrimitive *own, const Doubles f[3], const Doubles d[3], unsigned asked,
+                                 PrimitiveLanes *lanes)
 {
     const Doubles zero = doubles_splat(0.0), far = doubles_splat((double)INFINITY);
     double ratio = own->solid->data[0].x;
@@ -304,7 +305,7 @@ RT_ALWAYS_INLINE void smooth_lanes(const Doubles corners[3][3], Doubles x, Doubl
 }
 
 // Whether rays come from below where they meet a smooth triangle.
-RT_ALWAYS_INLINE unsigned smooth_lanes_leave(const LaneSolid *own, Doubles x, Doubles y, const Doubles world[3])
+RT_ALWAYS_INLINE unsigned smooth_lanes_leave(const LanePrimitive *own, Doubles x, Doubles y, const Doubles world[3])
 {
     Doubles corners[3][3], object[3], normal[3];
 #pragma GCC unroll 3
@@ -324,20 +325,20 @@ RT_ALWAYS_INLINE unsigned smooth_lanes_leave(const LaneSolid *own, Doubles x, Do
 }
 
 // flat_root, with disc_has or triangle_has, and which side of it the ray comes from.
-RT_ALWAYS_INLINE bool flat_lanes(const LaneSolid *own, PartKind kind, const Doubles f[3], const Doubles d[3],
-                                 const Doubles world[3], unsigned asked, SolidLanes *lanes)
+RT_ALWAYS_INLINE bool flat_lanes(const LanePrimitive *own, PrimitiveKind kind, const Doubles f[3], const Doubles d[3],
+                                 const Doubles world[3], unsigned asked, PrimitiveLanes *lanes)
 {
     const Doubles zero = doubles_splat(0.0);
     const double hole = own->solid->data[0].x;
     Doubles t = -f[2] / d[2], x = f[0] + t * d[0], y = f[1] + t * d[1], square = x * x + y * y;
-    DoublesMask has = kind == PART_DISC ? (square <= 1.0) & (square >= hole * hole)
-                                        : (x >= 0.0) & (y >= 0.0) & (x + y <= 1.0);
+    DoublesMask has =
+        kind == PRIMITIVE_DISC ? (square <= 1.0) & (square >= hole * hole) : (x >= 0.0) & (y >= 0.0) & (x + y <= 1.0);
     lanes->possible = asked & doubles_mask_bits(has & (t > zero) & (d[2] != zero));
     if (!lanes->possible) {
         return false;
     }
     lanes->certain = ~0u;
-    if (kind == PART_SMOOTH_TRIANGLE) {
+    if (kind == PRIMITIVE_SMOOTH_TRIANGLE) {
         lanes->leaves = smooth_lanes_leave(own, x, y, world);
     } else {
         Vec3 n = own->normal;
@@ -350,8 +351,8 @@ RT_ALWAYS_INLINE bool flat_lanes(const LaneSolid *own, PartKind kind, const Doub
 }
 
 // The first root of a curve; `starts`: all rays start on it and leave it.
-RT_ALWAYS_INLINE bool curve_lanes(const LaneSolid *own, PartKind kind, const Doubles f[3], const Doubles d[3],
-                                  bool starts, unsigned asked, SolidLanes *lanes)
+RT_ALWAYS_INLINE bool curve_lanes(const LanePrimitive *own, PrimitiveKind kind, const Doubles f[3], const Doubles d[3],
+                                  bool starts, unsigned asked, PrimitiveLanes *lanes)
 {
     CurveFirst first;
     if (!curve_lanes_first(own->solid, kind, starts, f, d, asked, &first)) {
@@ -368,15 +369,20 @@ RT_ALWAYS_INLINE bool curve_lanes(const LaneSolid *own, PartKind kind, const Dou
 
 // The kinds, each with its test. `kind` is a constant of the caller, `world` the rays' directions. False when all of
 // `asked` are missed; nothing else is set then.
-RT_ALWAYS_INLINE bool solid_lanes(const LaneSolid *own, PartKind kind, const Doubles f[3], const Doubles d[3],
-                                  const Doubles world[3], unsigned asked, SolidLanes *lanes)
+RT_ALWAYS_INLINE bool primitive_lanes(const LanePrimitive *own, PrimitiveKind kind, const Doubles f[3],
+                                      const Doubles d[3], const Doubles world[3], unsigned asked, PrimitiveLanes *lanes)
 {
     switch (kind) {
-    case PART_SPHERE: return ball_lanes(f, d, &own->slack, asked, lanes);
-    case PART_BOX: return box_lanes(own, f, d, asked, lanes);
-    case PART_CONE: return cone_lanes(own, f, d, asked, lanes);
-    case PART_TORUS: return curve_lanes(own, PART_TORUS, f, d, false, asked, lanes);
-    case PART_POLYNOMIAL: return curve_lanes(own, PART_POLYNOMIAL, f, d, false, asked, lanes);
+    case PRIMITIVE_SPHERE:
+        return ball_lanes(f, d, &own->slack, asked, lanes);
+    case PRIMITIVE_BOX:
+        return box_lanes(own, f, d, asked, lanes);
+    case PRIMITIVE_CONE:
+        return cone_lanes(own, f, d, asked, lanes);
+    case PRIMITIVE_TORUS:
+        return curve_lanes(own, PRIMITIVE_TORUS, f, d, false, asked, lanes);
+    case PRIMITIVE_POLYNOMIAL:
+        return curve_lanes(own, PRIMITIVE_POLYNOMIAL, f, d, false, asked, lanes);
     default: return flat_lanes(own, kind, f, d, world, asked, lanes);
     }
 }

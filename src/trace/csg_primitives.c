@@ -1,7 +1,7 @@
-// The tree of a composite's parts, where they are many.
+// The tree of a composite's primitives, where they are many.
 //
 // SPDX-License-Identifier: MIT
-#include "trace/csg_parts.h"
+#include "trace/csg_primitives.h"
 
 #include <stdlib.h>
 
@@ -9,27 +9,27 @@
 
 static bool is_leaf(const ShapeTable *table, const Bounds *surfaces, uint32_t index)
 {
-    const Solid *solid = &table->solids[index];
-    return !solid->decides && !solid_is_mesh(solid) && bounds_are_finite(surfaces[index]);
+    const PreparedPrimitive *primitive = &table->primitives[index];
+    return !primitive->decides && !primitive_is_mesh(primitive) && bounds_are_finite(surfaces[index]);
 }
 
 // Places the leaves' boxes and builds the tree of them; `refs` has room for all.
-static bool build(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, CsgParts *parts, BvhRef *refs,
-                  int threads, const atomic_bool *cancel)
+static bool build(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, CsgPrimitives *parts,
+                  BvhRef *refs, int threads, const atomic_bool *cancel)
 {
     Bounds all = BOUNDS_NONE;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < csg->solid_count; i++) {
-        if (is_leaf(table, surfaces, csg->first_solid + i)) {
-            all = bounds_join(all, surfaces[csg->first_solid + i]);
+    for (uint32_t i = 0; i < csg->primitive_count; i++) {
+        if (is_leaf(table, surfaces, csg->first_primitive + i)) {
+            all = bounds_join(all, surfaces[csg->first_primitive + i]);
         } else {
             parts->loose[parts->loose_count++] = i;
         }
     }
     bvh_place(&parts->tree, all.low, all.high);
-    for (uint32_t i = 0; i < csg->solid_count; i++) {
-        const Bounds *own = &surfaces[csg->first_solid + i];
-        if (is_leaf(table, surfaces, csg->first_solid + i)) {
+    for (uint32_t i = 0; i < csg->primitive_count; i++) {
+        const Bounds *own = &surfaces[csg->first_primitive + i];
+        if (is_leaf(table, surfaces, csg->first_primitive + i)) {
             refs[count++] = bvh_ref(&parts->tree, own->low, own->high, i);
             parts->are_leaves_unseen = parts->are_leaves_unseen && i >= csg->seen_count;
         }
@@ -45,15 +45,15 @@ static bool build(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
 // The node that joins all leaves and nothing else, where these only clip and are simple.
 static uint32_t joined_by(const ShapeTable *table, const CsgTree *csg)
 {
-    const CsgParts *parts = csg->parts;
-    uint32_t at = table->solids[csg->first_solid + parts->leaves[0]].node;
+    const CsgPrimitives *parts = csg->parts;
+    uint32_t at = table->primitives[csg->first_primitive + parts->leaves[0]].node;
     const TreeNode *node = &table->nodes[at];
     bool is_joined = parts->are_leaves_unseen && (node->op == NODE_UNION || node->op == NODE_MERGE) &&
                      node->child_count == parts->leaf_count;
     for (uint32_t i = 0; i < parts->leaf_count && is_joined; i++) {
-        const Solid *solid = &table->solids[csg->first_solid + parts->leaves[i]];
-        is_joined =
-            solid->node == at && solid_is_convex(solid) && !solid_is_flat(solid) && !(solid->flags & PART_INVERSE);
+        const PreparedPrimitive *primitive = &table->primitives[csg->first_primitive + parts->leaves[i]];
+        is_joined = primitive->node == at && primitive_is_convex(primitive) && !primitive_is_flat(primitive) &&
+                    !(primitive->flags & PRIMITIVE_INVERSE);
     }
     return is_joined ? at : NODE_NONE;
 }
@@ -62,15 +62,15 @@ bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surface
                     const atomic_bool *cancel)
 {
     uint32_t count = 0;
-    for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count; i++) {
+    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count; i++) {
         count += is_leaf(table, surfaces, i);
     }
-    if (csg->is_plain || count < CSG_PARTS_LEAST) {
+    if (csg->is_plain || count < CSG_PRIMITIVES_LEAST) {
         return true;
     }
     Pages pages = {0};
-    CsgParts *parts = csg->parts = calloc(1, sizeof *parts);
-    uint32_t *numbers = malloc(csg->solid_count * sizeof *numbers);
+    CsgPrimitives *parts = csg->parts = calloc(1, sizeof *parts);
+    uint32_t *numbers = malloc(csg->primitive_count * sizeof *numbers);
     if (!parts || !numbers || !pages_take(&pages, count * sizeof(BvhRef))) {
         free(numbers);
         return false;
@@ -95,13 +95,13 @@ void csg_parts_fini(CsgTree *csg)
 
 size_t csg_parts_bytes(const CsgTree *csg)
 {
-    const CsgParts *parts = csg->parts;
+    const CsgPrimitives *parts = csg->parts;
     return !parts ? 0
-                  : sizeof *parts + csg->solid_count * sizeof *parts->leaves +
+                  : sizeof *parts + csg->primitive_count * sizeof *parts->leaves +
                         parts->tree.node_count * sizeof *parts->tree.nodes;
 }
 
-void csg_parts_along(const CsgParts *parts, const Ray *ray, double until, uint64_t *met)
+void csg_parts_along(const CsgPrimitives *parts, const Ray *ray, double until, uint64_t *met)
 {
     BvhWalk walk;
     BvhChild leaf;
@@ -115,7 +115,7 @@ void csg_parts_along(const CsgParts *parts, const Ray *ray, double until, uint64
     }
 }
 
-void csg_parts_at(const CsgParts *parts, const Ray *ray, double from, double to, CsgPartFn ask, void *client)
+void csg_parts_at(const CsgPrimitives *parts, const Ray *ray, double from, double to, CsgPrimitiveFn ask, void *client)
 {
     BvhWalk walk;
     BvhChild leaf;

@@ -1,5 +1,5 @@
-// The printable form of parts and composites: each part as its fixed shape under a matrix, each node as the block that
-// makes it.
+// The printable form of primitives and composites: each primitive as its fixed shape under a matrix, each node as the
+// block that makes it.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/blob.h"
@@ -16,9 +16,9 @@ const Texture *dump_fields_of(const Scene *scene, MaterialIndex material)
 }
 
 // Textures stand in the order of their components, so that each is the next of the list.
-void dump_blob(const Scene *scene, const Part *part, const Texture *texture, TextBuffer *out)
+void dump_blob(const Scene *scene, const Primitive *primitive, const Texture *texture, TextBuffer *out)
 {
-    Blob blob = blob_of(part->list.items);
+    Blob blob = blob_of(primitive->list.items);
     uint32_t entry = texture ? texture->entries : RECORD_NONE;
     dump_number(out, "threshold ", blob.threshold);
     for (uint32_t i = 0; i < blob.component_count; i++) {
@@ -39,21 +39,22 @@ void dump_blob(const Scene *scene, const Part *part, const Texture *texture, Tex
     }
 }
 
-static void dump_form(const Scene *scene, const Part *part, TextBuffer *out)
+static void dump_form(const Scene *scene, const Primitive *primitive, TextBuffer *out)
 {
-    if (primitive_class(part->kind)->is_mesh) {
-        dump_mesh_part(scene, part, out);
+    if (primitive_class(primitive->kind)->is_mesh) {
+        dump_mesh_part(scene, primitive, out);
         return;
     }
-    const PrimitiveClass *primitive = primitive_class(part->kind);
-    text_append(out, primitive->head);
-    if (part->kind == PART_ISOSURFACE) {
-        dump_isosurface(scene, part, out);
-    } else if (part->kind == PART_BLOB) {
-        dump_blob(scene, part, part->flags & PART_UNSEEN ? NULL : dump_fields_of(scene, part->material), out);
+    const PrimitiveClass *class = primitive_class(primitive->kind);
+    text_append(out, class->head);
+    if (primitive->kind == PRIMITIVE_ISOSURFACE) {
+        dump_isosurface(scene, primitive, out);
+    } else if (primitive->kind == PRIMITIVE_BLOB) {
+        dump_blob(scene, primitive,
+                  primitive->flags & PRIMITIVE_UNSEEN ? NULL : dump_fields_of(scene, primitive->material), out);
     }
-    if (primitive->dump) {
-        primitive->dump(part, out);
+    if (class->dump) {
+        class->dump(primitive, out);
     }
 }
 
@@ -71,19 +72,19 @@ static void dump_words(bool is_inverse, uint8_t hidden, const char *before, cons
     }
 }
 
-void dump_part(const Scene *scene, const Part *part, const uint32_t *around, TextBuffer *out)
+void dump_primitive(const Scene *scene, const Primitive *primitive, const uint32_t *around, TextBuffer *out)
 {
-    dump_form(scene, part, out);
-    text_append(out, part->flags & PART_OPEN ? " open" : "");
-    if (part->kind != PART_PLANE) {
+    dump_form(scene, primitive, out);
+    text_append(out, primitive->flags & PRIMITIVE_OPEN ? " open" : "");
+    if (primitive->kind != PRIMITIVE_PLANE) {
         text_append(out, " matrix ");
-        dump_numbers(out, &part->to_world.m[0][0], 12);
+        dump_numbers(out, &primitive->to_world.m[0][0], 12);
     }
-    dump_words(part->flags & PART_INVERSE, part->hidden, " ", "", out);
-    if (part->flags & PART_UNSEEN) {
+    dump_words(primitive->flags & PRIMITIVE_INVERSE, primitive->hidden, " ", "", out);
+    if (primitive->flags & PRIMITIVE_UNSEEN) {
         text_append(out, " }\n");
     } else {
-        dump_texture(scene, part->material, around, out);
+        dump_texture(scene, primitive->material, around, out);
     }
 }
 
@@ -96,20 +97,20 @@ typedef struct Walk {
     bool is_inside; // of a body
 } Walk;
 
-// What fills the group around: Part.body and its interior.
+// What fills the group around: Primitive.body and its interior.
 typedef struct Fill {
     uint32_t body, interior;
 } Fill;
 
-enum { FILL_NONE = UINT32_MAX }; // no Part.body: nothing is around
+enum { FILL_NONE = UINT32_MAX }; // no Primitive.body: nothing is around
 
-// What the first part of a body within a composite is filled with.
+// What the first primitive of a body within a composite is filled with.
 static uint32_t body_interior(const Walk *walk, uint32_t body)
 {
-    for (uint32_t i = 0; i < walk->composite->part_count; i++) {
-        const Part *part = &walk->scene->parts.items[walk->composite->first_part + i];
-        if (part->body == body && !(part->flags & PART_UNSEEN)) {
-            return dump_interior_of(walk->scene, part->material);
+    for (uint32_t i = 0; i < walk->composite->primitive_count; i++) {
+        const Primitive *primitive = &walk->scene->primitives.items[walk->composite->first_primitive + i];
+        if (primitive->body == body && !(primitive->flags & PRIMITIVE_UNSEEN)) {
+            return dump_interior_of(walk->scene, primitive->material);
         }
     }
     return RECORD_NONE;
@@ -117,15 +118,15 @@ static uint32_t body_interior(const Walk *walk, uint32_t body)
 
 static void dump_node(Walk *walk, const Fill *around, uint8_t hidden, const char *hollow, TextBuffer *out);
 
-// The next child of a node: the next node of all, or the next part, whichever was declared first.
+// The next child of a node: the next node of all, or the next primitive, whichever was declared first.
 static void dump_child(Walk *walk, uint32_t parent, const Fill *around, TextBuffer *out)
 {
     const Node *node = walk->node < walk->node_end ? &walk->scene->nodes.items[walk->node] : NULL;
-    if (node && node->parent == parent && node->first_part <= walk->part) {
+    if (node && node->parent == parent && node->first_primitive <= walk->part) {
         dump_node(walk, around, 0, "", out);
     } else {
-        const Part *part = &walk->scene->parts.items[walk->part++];
-        dump_part(walk->scene, part, part->body == around->body ? &around->interior : NULL, out);
+        const Primitive *primitive = &walk->scene->primitives.items[walk->part++];
+        dump_primitive(walk->scene, primitive, primitive->body == around->body ? &around->interior : NULL, out);
     }
 }
 
@@ -157,12 +158,12 @@ static void dump_node(Walk *walk, const Fill *around, uint8_t hidden, const char
     text_append(out, "}\n");
 }
 
-// All parts that are seen are hollow, or none is; members without surfaces have no say.
+// All primitives that are seen are hollow, or none is; members without surfaces have no say.
 static const char *hollow_word(const Scene *scene, const Composite *composite)
 {
-    for (uint32_t i = 0; i < composite->part_count; i++) {
-        const Part *part = &scene->parts.items[composite->first_part + i];
-        if (!(part->flags & PART_UNSEEN) && scene_is_hollow(scene, part->material)) {
+    for (uint32_t i = 0; i < composite->primitive_count; i++) {
+        const Primitive *primitive = &scene->primitives.items[composite->first_primitive + i];
+        if (!(primitive->flags & PRIMITIVE_UNSEEN) && scene_is_hollow(scene, primitive->material)) {
             return "hollow ";
         }
     }
@@ -172,8 +173,12 @@ static const char *hollow_word(const Scene *scene, const Composite *composite)
 void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, bool is_inside,
                     TextBuffer *out)
 {
-    Walk walk = {scene, composite, composite->first_node, composite->first_node + composite->node_count,
-                 composite->first_part, is_inside};
+    Walk walk = {scene,
+                 composite,
+                 composite->first_node,
+                 composite->first_node + composite->node_count,
+                 composite->first_primitive,
+                 is_inside};
     Fill fill = around && is_inside ? (Fill){0, *around} : (Fill){FILL_NONE, RECORD_NONE};
     dump_node(&walk, &fill, composite->hidden, hollow_word(scene, composite), out);
 }
