@@ -339,7 +339,8 @@ static double class_root(const PreparedPrimitive *primitive, const Ray *ray)
 // A ray that touches a surface, but for up to a thousandth of its size and down to rounding.
 static Ray grazing_ray(Random *random, const Surface *surface, double away)
 {
-    double aside = (random_bits(random) % 2 ? 1.0 : -1.0) * pow(10.0, random_between(random, -17, -3));
+    double size = pow(10.0, random_between(random, -17, -3));
+    double aside = random_bits(random) % 2 ? size : -size;
     Vec3 along = random_perpendicular(random, surface->normal);
     Vec3 at = vec3_add_scaled(surface->point, aside, surface->normal);
     return (Ray){vec3_add_scaled(at, -away, along), along};
@@ -360,7 +361,8 @@ static void test_told(uint64_t seed, PrimitiveKind kind, double most)
         Geometry *g = prepare(&scene, 0);
         for (int i = 0; i < 200; i++) {
             double away = pow(10.0, random_between(&random, -1, 3));
-            Vec3 eye = vec3_add_scaled(random_point(&random, 1.0), away, random_direction(&random));
+            Vec3 middle = random_point(&random, 1.0);
+            Vec3 eye = vec3_add_scaled(middle, away, random_direction(&random));
             Vec3 at = transform_point(&primitive.to_world, random_point(&random, 1.1));
             Ray ray = {eye, vec3_normalize(vec3_sub(at, eye))};
             Hit hit;
