@@ -181,13 +181,16 @@ static void test_counting(void)
     sink.keep_errors = 3;
     int kept = 0;
     for (int i = 0; i < 10; i++) {
-        kept += diag_report(&sink, i == 0 ? DIAG_E0501 : DIAG_E0601, SPAN_NONE, "error %d", i);
+        kept += diag_report(&sink, i == 0 ? DIAG_E0501 : DIAG_E0250, SPAN_NONE, "error %d", i);
         if (i == 2) {
             tap_ok(!diag_is_full(&sink), "as many errors as are kept do not stop the work");
         }
     }
     tap_ok(kept == 3 && sink.count == 3 && sink.error_count == 10, "errors beyond keep_errors are only counted");
     tap_ok(diag_is_full(&sink) && sink.class == CLASS_IO, "full; the class is that of the first error");
+    (void)diag_report(&sink, DIAG_E0601, SPAN_NONE, "a limit");
+    (void)diag_report(&sink, DIAG_E0501, SPAN_NONE, "a file");
+    tap_ok(sink.class == CLASS_LIMIT, "or that of a limit");
     diag_fini(&sink);
     tap_ok(sink.count == 0 && sink.error_count == 0 && sink.class == CLASS_NONE, "fini empties");
     sink.keep_errors = 0;

@@ -8,7 +8,7 @@
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
 
-enum { LIST = 2 + 3 + 10 };
+enum { LIST = POLYNOMIAL_HEAD + 2 + 1 + 10 };
 
 // Quadrics in POV-Ray's order of terms, with what planes across y make finite and what they do not.
 typedef struct Form {
@@ -39,7 +39,7 @@ static Primitive quadric(const Form *form, double list[LIST], Transform to_world
 {
     Primitive primitive = {.node = NODE_NONE};
     list[0] = 2.0;
-    memcpy(list + 5, form->terms, sizeof form->terms);
+    memcpy(list + POLYNOMIAL_HEAD + 3, form->terms, sizeof form->terms);
     polynomial_complete(list);
     polynomial_part(&(Numbers){list, LIST}, &primitive);
     finish(&primitive, to_world);
