@@ -58,6 +58,9 @@ SAMPLED_SIZE = ("-W160", "-H120")
 # By samples a pixel; of the 300 spheres many are small, whose lists, looks and replicas come on top.
 ESTIMATE_BAR = {4: 1.027 if IS_CLANG else 1.02, 16: 1.02, 64: 1.02}
 SMALL_BAR = 1.05 if IS_CLANG else 1.025  # halves and replicas of pixels with strata are weighted, too
+# Of an adaptive run over a plain one without an error, as many samples in the mean: rounds look at all pixels, and the
+# pixels that are asked most have more in them than the mean one.
+ADAPTIVE_BAR = 2.1 if IS_CLANG else 1.85
 # Of tracing a scene by the kernel that is chosen for it, over a kernel compiled with nothing but what the scene has.
 # Only opaque against clear is worth a kernel of its own; all else together is a twentieth at the most.
 ABSENT_BAR = 1.07 if IS_CLANG else 1.05
@@ -196,6 +199,17 @@ def judge_estimate(tap, folder):
                    f"{100 * (told / untold - 1):.2f} % of the instructions, at most {100 * (bar - 1):.1f} %")
 
 
+def judge_adaptive(tap, folder):
+    """The instructions of adaptive sampling beside those of as many samples everywhere."""
+    chosen, plain = (scene_instructions(MANY, "sampling_run", folder, *SAMPLED_SIZE, "--samples=16", more)
+                     for more in ("--adaptive", "--no-estimate"))
+    if not chosen or not plain:
+        tap.skip("adaptive samples of 300 spheres", "callgrind does not run rtlang")
+    else:
+        tap.ok(chosen <= ADAPTIVE_BAR * plain, f"adaptive samples of 300 spheres, 16 in the mean, take "
+               f"{chosen / plain:.2f} of the instructions of 16 everywhere, at most {ADAPTIVE_BAR}")
+
+
 def judge_repeated(tap, folder):
     """A line for each of REPEATED: instructions for a sphere, as the difference of two counts."""
     data = os.path.join(folder, "data.csv")
@@ -326,6 +340,7 @@ def main():
         if os.path.exists(KERNELS):
             judge_absent(tap, folder)
         judge_estimate(tap, folder)
+        judge_adaptive(tap, folder)
         judge_repeated(tap, folder)
         judge_stretched(tap, folder)
         judge_solids(tap, folder)

@@ -329,7 +329,7 @@ void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
 enum { BUCKETS = 1020, BUCKET_FINE = 4 };
 
 // A round takes about this share of all samples taken before it: what a run may spend too much.
-static const double ROUND_SHARE = 0.4;
+static const double ROUND_SHARE = 1.0 / 3.0;
 
 enum { ALLOCATION_ROWS = NEAR_ROWS + 2 };
 
