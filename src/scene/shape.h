@@ -166,7 +166,8 @@ typedef struct Composite {
 } Composite;
 
 // A primitive or composite of which the surface does not tell whether a ray starts inside: one that is clipped, turned
-// inside out, a disc, or with a union in it. It does in a box only; what clips all of it does not count. As in POV-Ray.
+// inside out, open, a disc, or with a union in it. It does in a box only; what clips all of it does not count. As in
+// POV-Ray.
 typedef struct StartShape {
     Vec3 low, high; // of the box
     uint32_t order;

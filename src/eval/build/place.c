@@ -10,6 +10,8 @@
 
 #include <math.h>
 
+#include "scene/isosurface.h"
+#include "scene/outline.h"
 #include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 #include "scene/room.h"
@@ -240,13 +242,29 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
     return is_round ? is_placed : place_single(ev, common, is_plain, inner, &shape);
 }
 
+// Whether a ray may leave a shape that was placed where nothing is seen: at ends that are open, or at what closes a
+// lathe's curve.
+static bool has_gaps(const Scene *scene, size_t first_primitive)
+{
+    bool does = false;
+    for (size_t i = first_primitive; i < scene->primitives.count && !does; i++) {
+        const Primitive *primitive = &scene->primitives.items[i];
+        const Numbers *list = &primitive->list;
+        does = (primitive->flags & PRIMITIVE_OPEN) ||
+               (primitive->kind == PRIMITIVE_LATHE && outline_seen_count(list) < outline_piece_count(list)) ||
+               (primitive->kind == PRIMITIVE_ISOSURFACE && isosurface_is(isosurface_of(list->items), ISOSURFACE_OPEN));
+    }
+    return does;
+}
+
 // A shape, or a group that is cut.
 static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner)
 {
     size_t first_primitive = ev->scene->primitives.count;
     bool is_placed = object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
                                            : place_shape(ev, kind, object, outer, inner);
-    if (!is_placed || (!inner->clips && !extent_reaches_out(kind, object, false))) {
+    if (!is_placed ||
+        (!inner->clips && !extent_reaches_out(kind, object, false) && !has_gaps(ev->scene, first_primitive))) {
         return is_placed;
     }
     BoxOwner own = {kind, object, outer->outer};

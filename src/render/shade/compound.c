@@ -41,15 +41,12 @@ static double refraction_of(const Prepared *p, const Compound *compound)
 
 // A mirror is seen undimmed through the layers above, unless the ray would be worth too little; measured.
 RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const TextureLayer *layer,
-                                 const ShadeMaterial *material, Rgb reflectance, ScatterRecord *scatter,
-                                 ShadeMirror *own)
+                                 const ShadeMaterial *material, Rgb reflectance, ShadeMirror *own)
 {
     double weight = rgb_luminance(layer->above) * shade_mirror_weight(features, material->finish, reflectance);
     if (sum->weight * weight < sum->p->adc_bailout) {
         return;
     }
-    scatter->reflectance = rgb_add_scaled(scatter->reflectance, layer->part, reflectance);
-    scatter->reflection_weight = greater_of(scatter->reflection_weight, weight);
     own->reflectance = rgb_add_scaled(own->reflectance, layer->part, reflectance);
     own->weight = greater_of(own->weight, weight);
 }
@@ -59,15 +56,19 @@ static bool lets_through(const LayerSum *sum)
     return !rgb_is_black(sum->through) && !(fabs(rgb_luminance(sum->through)) < sum->p->adc_bailout);
 }
 
-// The layers of a texture have been seen, on whose mirrors depends whether light is totally reflected instead.
-static void end_mirrors(const LayerSum *sum, ScatterRecord *ways, int count)
+// The layers of a texture have been seen: what they mirror is, too, and stays where what goes through is totally
+// reflected.
+static void end_mirrors(const LayerSum *sum, ScatterRecord *ways, int count, bool is_seen, bool stays)
 {
-    bool is_opaque = !lets_through(sum);
     for (int i = 0; i < count; i++) {
-        ShadeMirror *own = &sum->own[i], *all = &ways[i].opaque;
-        if (is_opaque && own->weight != 0.0) {
-            all->reflectance = rgb_add(all->reflectance, own->reflectance);
-            all->weight = greater_of(all->weight, own->weight);
+        ShadeMirror *own = &sum->own[i], *kept = &ways[i].kept;
+        if (own->weight != 0.0 && is_seen) {
+            ways[i].reflectance = rgb_add(ways[i].reflectance, own->reflectance);
+            ways[i].reflection_weight = greater_of(ways[i].reflection_weight, own->weight);
+        }
+        if (own->weight != 0.0 && stays) {
+            kept->reflectance = rgb_add(kept->reflectance, own->reflectance);
+            kept->weight = greater_of(kept->weight, own->weight);
         }
         *own = (ShadeMirror){.weight = 0.0};
     }
@@ -87,10 +88,10 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
     material.layer = sum->layer++;
     Rgb reflectance, left = shade_left_below(sum->p, FLAT_FEATURES, &material, sum->at);
     if (layer->is_top) {
-        end_mirrors(sum, sum->scatter, 1);
+        end_mirrors(sum, sum->scatter, 1, true, !lets_through(sum));
     }
     if (shade_mirror(sum->p, FLAT_FEATURES, &material, sum->at, &reflectance)) {
-        add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->scatter, sum->own);
+        add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->own);
     }
     sum->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
     add_light(FLAT_FEATURES, sum, layer, sum->at, &material);
@@ -116,7 +117,7 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     Vec3 room;
     TextureSight sight = sight_of(p, compound, at, &room);
     TextureThrough through = texture_walk(&p->textures, compound->texture, sight, p->adc_bailout, add_layer, &sum);
-    end_mirrors(&sum, scatter, 1);
+    end_mirrors(&sum, scatter, 1, true, !lets_through(&sum));
     scatter->through = through.light;
     scatter->through_weight = through.weight;
     scatter->part = through.part;
@@ -158,17 +159,20 @@ static int way_for(BumpSum *bumps, Vec3 normal, double exponent)
     return i < SHADE_WAYS_MAX ? i : SHADE_WAYS_MAX - 1;
 }
 
-// What a texture lets through is bent by the bumps of its top layer. Without bending all goes one way.
+// What a texture lets through is bent by the bumps of its top layer; where it is totally reflected there, no layer of
+// this texture mirrors, whatever its own bumps and exponent. Without bending all goes one way.
 static void end_stack(BumpSum *bumps)
 {
     const Stack *stack = &bumps->stack;
     const LayerSum *sum = &bumps->sum;
-    end_mirrors(sum, bumps->ways->scatter, bumps->ways->count);
-    if (!bumps->has_stack || !lets_through(sum)) {
+    bool has_bend = sum->at->ior_ratio != 1.0, goes_through = bumps->has_stack && lets_through(sum);
+    Vec3 bent;
+    bool is_total = goes_through && has_bend && !shade_bent(ALL_FEATURES, sum->at, stack->normal, &bent);
+    end_mirrors(sum, bumps->ways->scatter, bumps->ways->count, !is_total, !is_total);
+    if (!goes_through) {
         return;
     }
-    Vec3 normal = sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal;
-    ScatterRecord *way = &bumps->ways->scatter[way_for(bumps, normal, 1.0)];
+    ScatterRecord *way = &bumps->ways->scatter[way_for(bumps, has_bend ? stack->normal : sum->at->normal, 1.0)];
     way->through = rgb_add_scaled(way->through, stack->part, sum->through);
     way->through_weight = greater_of(way->through_weight, rgb_max_abs(sum->through));
     way->part += stack->part;
@@ -197,7 +201,7 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     Rgb reflectance, left = shade_left_below(sum->p, ALL_FEATURES, &material, &at);
     if (shade_mirror(sum->p, ALL_FEATURES, &material, &at, &reflectance)) {
         int way = way_for(bumps, at.normal, material.finish->reflection_exponent);
-        add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, &bumps->ways->scatter[way], &sum->own[way]);
+        add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, &sum->own[way]);
     }
     sum->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
     add_light(ALL_FEATURES, sum, layer, &at, &material);

@@ -73,7 +73,7 @@ typedef struct ShadeMirror {
 typedef struct ScatterRecord {
     Rgb through;     // what a ray that goes through is multiplied with, beside `refraction`
     Rgb reflectance; // the same for the mirrored ray
-    ShadeMirror opaque; // of that, what textures of a map mirror that let nothing through
+    ShadeMirror kept; // of that, what textures of a map mirror also where what goes through is totally reflected
     double through_weight; // of layers: by how much the ray's weight falls, when it is not the greatest of `through`
     double reflection_weight; // the greatest share that any angle may reflect; 0: no mirror
     double reflection_exponent;
@@ -210,17 +210,21 @@ RT_ALWAYS_INLINE const PreparedFinish *shade_top_finish(const Prepared *p, Mater
     return top->pattern.type == PATTERN_NONE ? &p->finishes[top->finish] : NULL;
 }
 
+// Where a ray is bent to by a normal, of bumps perhaps; false when all of it is mirrored.
+RT_ALWAYS_INLINE bool shade_bent(unsigned features, const ShadingPoint *at, Vec3 normal, Vec3 *direction)
+{
+    bool is_away = (features & RENDER_NORMALS) && vec3_dot(normal, at->direction) > 0.0;
+    return inside_bend(at->direction, is_away ? vec3_neg(normal) : normal, at->ior_ratio, direction);
+}
+
 // The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to
 // the next level. There is none when it is too deep or worth too little, and then no other mirrored ray either.
 // Measured.
 RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ScatterRecord *scatter, Rgb fade,
                                  const ShadingPoint *at, const StackedRay *from, MediumStack behind, RayStack *stack)
 {
-    Vec3 direction, normal = at->normal;
-    if ((features & RENDER_NORMALS) && vec3_dot(normal, at->direction) > 0.0) {
-        normal = vec3_neg(normal);
-    }
-    bool is_bent = inside_bend(at->direction, normal, at->ior_ratio, &direction);
+    Vec3 direction;
+    bool is_bent = shade_bent(features, at, at->normal, &direction);
     int place = stack->count;
     shade_transmit(p, features, scatter, at, from, is_bent ? behind : at->before, stack);
     if (stack->count == place) {
@@ -292,12 +296,12 @@ RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const Sc
         }
     }
     place = stack->count;
-    ScatterRecord opaque;
+    ScatterRecord kept;
     if ((features & RENDER_TEXTURES) && is_total) { // each texture of a map by itself. Measured.
-        opaque = *scatter;
-        opaque.reflectance = scatter->opaque.reflectance;
-        opaque.reflection_weight = scatter->opaque.weight;
-        scatter = &opaque;
+        kept = *scatter;
+        kept.reflectance = scatter->kept.reflectance;
+        kept.reflection_weight = scatter->kept.weight;
+        scatter = &kept;
         is_total = false;
     }
     if ((features & RENDER_REFLECTION) && scatter->reflection_weight != 0.0 && !is_total) {
