@@ -299,6 +299,9 @@ static void dump_warp(const Warp *warp, TextBuffer *out)
         dump_number(out, ", ", warp->radius);
         text_append(out, " }\n");
         return;
+    case WARP_CUBIC:
+        text_append(out, "  warp { cubic }\n");
+        return;
     default:
         break;
     }

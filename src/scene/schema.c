@@ -657,6 +657,7 @@ static const SchemaProperty warp_properties[] = {
     {"orientation", TYPE_VECTOR, WARP_AT(vector), .doc = "of these: the axis"},
     {"dist_exp", TYPE_NUMBER, WARP_AT(exponent), .doc = "of these: exponent of the distance, 0"},
     {"major_radius", TYPE_NUMBER, WARP_AT(radius), .doc = "of `toroidal`: of its ring"},
+    {"cubic", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "x and y are laid on an unfolded cube; it stands alone"},
 };
 
 static const WarpDesc warp_defaults = {

@@ -21,6 +21,7 @@ typedef enum WarpType {
     WARP_CYLINDRICAL,
     WARP_SPHERICAL,
     WARP_TOROIDAL,
+    WARP_CUBIC,
     WARP_TYPES
 } WarpType;
 

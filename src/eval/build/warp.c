@@ -104,6 +104,9 @@ static bool type_of_word(Symbol word, WarpType *type)
     case W_toroidal:
         *type = WARP_TOROIDAL;
         return true;
+    case W_cubic:
+        *type = WARP_CUBIC;
+        return true;
     default:
         return false;
     }
@@ -157,6 +160,9 @@ bool warp_close(Block *block)
     if (!has_type(warp)) {
         return block->has_unsupported || block_fault(block, DIAG_E0253, block->node->span,
                                                      "`warp` needs the word of a warp, such as `turbulence`");
+    }
+    if (warp->warp.type == WARP_CUBIC && block->items > 1) {
+        return block_fault(block, DIAG_E0256, block->node->span, "nothing else can stand in a warp with `cubic`");
     }
     bool is_mapping = warp->warp.type >= WARP_PLANAR;
     return !is_mapping || vec3_length_squared(warp->warp.vector) > 0.0 ||

@@ -114,10 +114,34 @@ static Vec3 toroidal(const Warp *warp, const NoiseSource *source, Vec3 p)
     return turn_back(warp, vec3(turn_of(p) * wide, around * wide, distance));
 }
 
+// The cube unfolded that a point is seen on from the origin, as a box has it (trace/surface_map.c). Where two faces are
+// as far away, the one that is asked first has it; the origin itself, of which POV-Ray makes no number, lies on +x.
+static Vec3 cubic(const Warp *warp, const NoiseSource *source, Vec3 p)
+{
+    (void)warp;
+    (void)source;
+    double ax = fabs(p.x), ay = fabs(p.y), az = fabs(p.z), far = fmax(ax, fmax(ay, az));
+    double half = far > 0.0 ? 0.5 / far : 0.0;
+    double x = 0.5 + half * p.x, y = 0.5 + half * p.y, z = 0.5 + half * p.z, v = (1.0 + y) / 3.0;
+    if (p.x == far) {
+        return vec3((3.0 - z) / 4.0, v, far);
+    }
+    if (p.y == far) {
+        return vec3((1.0 + x) / 4.0, (3.0 - z) / 3.0, far);
+    }
+    if (p.z == far) {
+        return vec3((1.0 + x) / 4.0, v, far);
+    }
+    if (ax == far) {
+        return vec3(z / 4.0, v, far);
+    }
+    return ay == far ? vec3((1.0 + x) / 4.0, z / 3.0, far) : vec3((4.0 - x) / 4.0, v, far);
+}
+
 static const WarpFunction functions[WARP_TYPES] = {
     [WARP_TURBULENCE] = turbulence, [WARP_REPEAT] = repeat,           [WARP_BLACK_HOLE] = black_hole,
     [WARP_PLANAR] = planar,         [WARP_CYLINDRICAL] = cylindrical, [WARP_SPHERICAL] = spherical,
-    [WARP_TOROIDAL] = toroidal,
+    [WARP_TOROIDAL] = toroidal,     [WARP_CUBIC] = cubic,
 };
 
 Vec3 warp_point(const Pattern *pattern, const NoiseSource *source, Vec3 point)
