@@ -52,9 +52,9 @@ def text_of(scene):
 class Writer:
     """Writes one scene. `names` hold what is declared, by kind: (name, value where it is a number)."""
 
-    def __init__(self, seed, number, size=1):
-        """`size`: how many times as large all lengths are. The picture is the same."""
-        self.size = size
+    def __init__(self, seed, number, size=1, shift=0):
+        """`size`: how many times as large all lengths are. The picture is the same. `shift`: how far the camera is moved."""
+        self.size, self.shift = size, shift
         self.dice = random.Random(f"{seed} {number}")
         self.number_ = number
         self.count = 0
@@ -408,7 +408,8 @@ class Writer:
 
     def curved(self):
         """(head, whether it is a sheet) of a shape whose surface POV-Ray finds step by step: rays through glass of it, or
-        along its seams with others, end where its tolerances do."""
+        along its seams with others, end where its tolerances do. No isosurface has an `accuracy` below 0.0002: both ask a
+        ray that leaves it from 5 times that on, and POV-Ray's shadows begin at 0.001."""
         n = self.number
         curve = lambda least: ", ".join(f"<{n(least, 0.9)}, {height}>" for height in (-0.83, -0.31, 0.27, 0.79))
         wave = lambda: f"{n(0.2, 0.4)} + {n(0.1, 0.2)} * sin({n(3, 9)} * x) * cos({n(3, 9)} * y)"
@@ -421,7 +422,7 @@ class Writer:
                      + " smooth" * self.chance(0.4) + f" water_level {n(0.1, 0.3)}" * self.chance(0.3)
                      + " translate -0.5 scale 1.6", True),
             lambda: (f"isosurface {{ function {{ x*x + y*y*{n(0.8, 1.6)} + z*z - {n(0.4, 0.7)} + {n(0.05, 0.1)} * sin({n(3, 6)} * x) }} "
-                     "contained_by { sphere { 0, 0.97 } } accuracy 0.0001 max_gradient 4", True),
+                     "contained_by { sphere { 0, 0.97 } } accuracy 0.0003 max_gradient 4", True),
             lambda: (f"blob {{ threshold {n(0.3, 0.6)} sphere {{ <-0.3, 0, 0>, {n(0.7, 0.9)}, 1 }} "
                      f"cylinder {{ <0, -0.3, 0>, <0.4, 0.3, 0.2>, {n(0.5, 0.7)}, {n(0.6, 1)} }}", True),
             lambda: ("bicubic_patch { " + f"type {self.dice.randint(0, 1)} flatness {self.enlarged(n(0.005, 0.1))} u_steps "
@@ -528,8 +529,8 @@ class Writer:
         if self.chance(0.2):
             return self.curved_object(place)
         head, first, tail, is_simple, is_flat = self.shape()
-        # Along the seams and edges of glass rays meet two surfaces within POV-Ray's 1e-3.
-        items = self.surface()
+        # Light through clear letters depends on the unit of length in POV-Ray, in some pixels; so letters are opaque.
+        items = self.solid_of(self.surface) if head.startswith("text") else self.surface()
         if self.chance(0.2):
             items = self.shuffled_in([self.interior()], items)
         items = self.shuffled_in([self.transform(0.2) for _ in self.some(2)], items)
@@ -559,7 +560,8 @@ class Writer:
         # Some kinds draw another picture when their vectors are longer; of others these are the size of what is seen.
         growth = self.growth() if kind == "orthographic" else []
         grown = lambda text: text if growth else self.enlarged(text)
-        words = [f"location {grown('<' + ', '.join(self.literal(c) for c in place) + '>')}"]
+        moved = f" + {self.shift} * <1, 0.7, -0.4>" if self.shift else ""
+        words = [f"location {grown('<' + ', '.join(self.literal(c) for c in place) + '>')}{moved}"]
         vector = lambda: self.dice.choice(AXES +
                                           [f"<{self.number(-1, 1)}, {self.number(-1, 1)}, {self.number(0.2, 1)}>"])
         vectors = {"direction": lambda: f"{self.number(0.7, 1.5)} * {vector()}", "up": vector,
@@ -739,5 +741,5 @@ class Writer:
         return Block("", begin + statements, "")
 
 
-def scene_of(seed, number, size=1):
-    return Writer(seed, number, size).scene()
+def scene_of(seed, number, size=1, shift=0):
+    return Writer(seed, number, size, shift).scene()
