@@ -62,6 +62,13 @@ typedef struct SlopeDesc {
     bool has_direction, is_point;
 } SlopeDesc;
 
+// What stands first in the braces of the pattern `object`.
+typedef struct InsideDesc {
+    Transform transform; // after the object's own
+    const void *object;
+    int kind; // SchemaKind
+} InsideDesc;
+
 // A pattern in space and what lies along it; with PATTERN_NONE, what the pigment or texture around it says.
 typedef struct PatternMap PatternMap;
 typedef struct PatternPart {
@@ -71,6 +78,7 @@ typedef struct PatternPart {
     const ImageDesc *image; // PATTERN_IMAGE_MAP
     const struct Function *function; // PATTERN_FUNCTION, of the evaluator
     const struct PigmentDesc *pigment; // PATTERN_PIGMENT
+    const InsideDesc *inside;          // PATTERN_OBJECT
     const WarpDesc *warps; // the last one first
     const Transform *on_surface; // from the pattern's space to surface coordinates, which nothing else moves; NULL: it
                                  // lies in space

@@ -366,8 +366,9 @@ void scene_dump(const Scene *scene, TextBuffer *out)
     for (size_t i = 0; i < scene->materials.count; i++) {
         dump_material(&scene->materials.items[i], i + 1, out);
     }
-    dump_textures(scene, out);
-    dump_meshes(scene, out);
+    bool has_insides = scene->insides.count > 0; // which are made of meshes, too
+    (has_insides ? dump_meshes : dump_textures)(scene, out);
+    (has_insides ? dump_textures : dump_meshes)(scene, out);
     dump_shapes(scene, out);
     dump_sky(scene, out);
     for (size_t i = 0; i < scene->rainbows.count; i++) {

@@ -53,5 +53,7 @@ void dump_mesh_part(const Scene *scene, const Primitive *primitive, TextBuffer *
 void dump_primitive(const Scene *scene, const Primitive *primitive, const uint32_t *around, TextBuffer *out);
 void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, bool is_inside,
                     TextBuffer *out);
+// The object of one of Scene.insides.
+void dump_inside(const Scene *inside, TextBuffer *out);
 
 #endif

@@ -182,3 +182,12 @@ void dump_composite(const Scene *scene, const Composite *composite, const uint32
     Fill fill = around && is_inside ? (Fill){0, *around} : (Fill){FILL_NONE, RECORD_NONE};
     dump_node(&walk, &fill, composite->hidden, hollow_word(scene, composite), out);
 }
+
+// The root is a union of one object, which is what is said.
+void dump_inside(const Scene *inside, TextBuffer *out)
+{
+    const Composite *composite = inside->composites.items;
+    Walk walk = {inside, composite, 1, composite->node_count, 0, false};
+    Fill fill = {0, RECORD_NONE};
+    dump_child(&walk, 0, &fill, out);
+}

@@ -185,9 +185,19 @@ static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBu
     if (info->has_count) {
         text_printf(out, info->has_direction ? ", %d" : " %d", (int)pattern->count);
     }
+    if (pattern->type == PATTERN_OBJECT) {
+        text_append(out, " {\n");
+        dump_inside(scene->insides.items[pattern->image], out);
+    }
     if (pattern->type == PATTERN_PIGMENT) {
         text_printf(out, " { P%lu }", (unsigned long)pattern->image + 1);
     }
+}
+
+// Of what has blocks behind it within its braces.
+static const char *end_of_blocks(const Pattern *pattern)
+{
+    return pattern->type == PATTERN_OBJECT ? " }\n" : "\n";
 }
 
 static void dump_place(const Scene *scene, const Pattern *pattern, const Transform *to_world, TextBuffer *out)
@@ -199,7 +209,7 @@ static void dump_place(const Scene *scene, const Pattern *pattern, const Transfo
 void dump_pattern(const Scene *scene, const PatternedPigment *record, TextBuffer *out)
 {
     dump_pattern_word(scene, &record->pattern, out);
-    text_append(out, "\n");
+    text_append(out, end_of_blocks(&record->pattern));
     dump_modifiers(&record->pattern, out);
     dump_place(scene, &record->pattern, &record->to_world, out);
 }
@@ -232,7 +242,7 @@ static void dump_pigment(const Scene *scene, const PatternedPigment *record, siz
         dump_pigment_items(&entry->pigment, out);
         text_append(out, has_blocks ? " }" : "]");
     }
-    text_append(out, has_blocks ? "\n" : " }\n");
+    text_append(out, has_blocks ? end_of_blocks(&record->pattern) : " }\n");
     dump_modifiers(&record->pattern, out);
     dump_place(scene, &record->pattern, &record->to_world, out);
     text_append(out, "}\n");
@@ -249,7 +259,7 @@ static void dump_normal_entries(const Scene *scene, const Normal *record, TextBu
         }
         text_printf(out, has_blocks ? " normal { N%lu }" : " N%lu]", (unsigned long)entry->normal + 1);
     }
-    text_append(out, has_blocks ? "\n" : " }\n");
+    text_append(out, has_blocks ? end_of_blocks(&record->pattern) : " }\n");
 }
 
 static void dump_slopes(const Scene *scene, uint32_t first, TextBuffer *out)
@@ -272,7 +282,7 @@ static void dump_normal(const Scene *scene, const Normal *record, size_t number,
     text_printf(out, "#declare N%zu = normal {\n", number);
     dump_pattern_word(scene, &record->pattern, out);
     if (record->entries == RECORD_NONE || !has_blocks) {
-        text_append(out, "\n");
+        text_append(out, end_of_blocks(&record->pattern));
     }
     if (record->entries != RECORD_NONE) {
         dump_normal_entries(scene, record, out);
@@ -317,7 +327,7 @@ static void dump_texture_pattern(const Scene *scene, const Texture *record, size
         }
         text_printf(out, has_blocks ? " texture { T%lu }" : " T%lu]", (unsigned long)entry->texture + 1);
     }
-    text_append(out, has_blocks && !is_numbered ? "\n" : " }\n");
+    text_append(out, has_blocks && !is_numbered ? end_of_blocks(&record->pattern) : " }\n");
     if (!is_numbered) {
         dump_modifiers(&record->pattern, out);
     }

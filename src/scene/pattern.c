@@ -44,6 +44,7 @@ static const PatternInfo patterns[PATTERN_COUNT] = {
     [PATTERN_MANDEL] = {.word = "mandel", .has_count = true},
     [PATTERN_JULIA] = {.word = "julia", .has_direction = true, .has_count = true},
     [PATTERN_QUILTED] = {.word = "quilted", .is_special_normal = true},
+    [PATTERN_OBJECT] = {.word = "object", .form = PATTERN_OF_BLOCKS, .blocks = 2},
     [PATTERN_AVERAGE] = {.word = "average", .form = PATTERN_OF_ALL},
 };
 

@@ -44,14 +44,15 @@ typedef enum PatternType {
     PATTERN_JULIA,
     PATTERN_QUILTED,
     PATTERN_SPIRAL2,
-    PATTERN_FUNCTION, // a formula of x, y and z
-    PATTERN_PIGMENT,  // the grey of a pigment
-    PATTERN_SLOPE,    // how the surface faces a direction, or a point
-    PATTERN_AOI,      // how it faces the ray
+    PATTERN_FUNCTION,      // a formula of x, y and z
+    PATTERN_PIGMENT,       // the grey of a pigment
+    PATTERN_SLOPE,         // how the surface faces a direction, or a point
+    PATTERN_AOI,           // how it faces the ray
     PATTERN_IMAGE_PATTERN, // what a picture tells as values
     PATTERN_BUMP_MAP,      // as heights, of normals only
     PATTERN_MATERIAL_MAP,  // as numbers of textures, of textures only
-    PATTERN_AVERAGE, // no pattern: all that lies along it, mixed
+    PATTERN_OBJECT,        // whether a point is inside of an object
+    PATTERN_AVERAGE,       // no pattern: all that lies along it, mixed
     PATTERN_COUNT
 } PatternType;
 
@@ -86,8 +87,8 @@ typedef struct Pattern {
     double agate_turb; // agate: of its own turbulence
     Vec3 turbulence;
     double lambda, omega; // of turbulence, see Octaves
-    uint32_t image;  // of a picture: of Scene.image_maps; PATTERN_FUNCTION: the first of Scene.formula_steps;
-                     // PATTERN_PIGMENT: of Scene.patterns; else 0
+    uint32_t image;       // of a picture: of Scene.image_maps; PATTERN_FUNCTION: the first of Scene.formula_steps;
+                          // PATTERN_PIGMENT: of Scene.patterns; PATTERN_OBJECT: of Scene.insides; else 0
     uint32_t warps;  // 1 + the first of Scene.warps on the way to it; 0: there is none
 } Pattern;
 

@@ -57,10 +57,11 @@ void scene_init(Scene *scene)
 // All its lists, and the indices of those that keep each different record once.
 #define SCENE_LISTS(X)                                                                                                 \
     X(sky)                                                                                                             \
-    X(fogs) X(rainbows) X(lights) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps) X(warps)    \
+    X(fogs)                                                                                                            \
+    X(rainbows) X(lights) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps) X(warps)            \
         X(picture_sources) X(picture_shades) X(image_maps) X(pictures) X(slope_entries) X(normal_entries) X(normals)   \
             X(texture_entries) X(textures) X(interiors) X(compounds) X(spheres) X(sphere_runs) X(planes) X(primitives) \
-                X(meshes) X(face_materials) X(blobs) X(nodes) X(composites) X(start_shapes) X(bodies)
+                X(meshes) X(face_materials) X(blobs) X(nodes) X(composites) X(start_shapes) X(bodies) X(insides)
 #define SCENE_INDICES(X)                                                                                               \
     X(finish) X(material) X(pigment_entry) X(pattern) X(slope_entry) X(normal_entry) X(normal) X(texture_entry)        \
     X(texture) X(interior) X(compound) X(picture_source) X(picture_shade) X(image_map) X(formula_step) X(warp)
@@ -72,6 +73,10 @@ void scene_fini(Scene *scene)
     }
     for (size_t i = 0; i < scene->meshes.count; i++) {
         mesh_free(scene->meshes.items[i]);
+    }
+    for (size_t i = 0; i < scene->insides.count; i++) {
+        scene_fini(scene->insides.items[i]);
+        free(scene->insides.items[i]);
     }
     numbers_fini(&scene->numbers);
     if (scene->formula_host) {
@@ -226,8 +231,8 @@ size_t scene_picture_bytes(const Scene *scene)
 size_t scene_bytes(const Scene *scene)
 {
 #define LIST_BYTES(list) +list_bytes(scene->list.count, scene->list.capacity, sizeof *scene->list.items)
-    return scene->mesh_bytes + scene->numbers.bytes + scene_picture_bytes(scene) SCENE_LISTS(LIST_BYTES)
-        LIST_BYTES(numbers.lists) LIST_BYTES(numbers.slots);
+    return scene->inside_bytes + scene->mesh_bytes + scene->numbers.bytes +
+           scene_picture_bytes(scene) SCENE_LISTS(LIST_BYTES) LIST_BYTES(numbers.lists) LIST_BYTES(numbers.slots);
 }
 
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer)

@@ -220,6 +220,8 @@ typedef struct Scene {
     ARRAY(Numbers) blobs; // lists that textures are weighed by
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
+    ARRAY(struct Scene *) insides;  // owned; of objects that are patterns: each one composite, its root a union of it
+    size_t inside_bytes; // of all of them
     ARRAY(StartShape) start_shapes; // in the order of shapes
     ARRAY(Body) bodies;
     uint32_t inner_body_count; // bodies within composites
@@ -266,6 +268,9 @@ static inline bool scene_is_hollow(const Scene *scene, MaterialIndex material)
                ? scene->compounds.items[material & ~MATERIAL_COMPOUND].is_hollow
                : scene->finishes.items[scene->materials.items[material].finish].flags & FINISH_HOLLOW;
 }
+
+// Takes over a scene of one composite, and forgets it where there is an equal one. False when out of memory.
+bool scene_add_inside(Scene *scene, Scene *inside, uint32_t *index) RT_MUST_CHECK;
 
 // The same for the parts of textures. Lists are made from their ends.
 bool scene_add_finish(Scene *scene, const Finish *finish, FinishIndex *index) RT_MUST_CHECK;

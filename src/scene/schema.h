@@ -146,6 +146,7 @@ typedef enum SchemaAction {
     ACTION_SKY_LAYER,
     ACTION_WARP,
     ACTION_TILES,
+    ACTION_INSIDE,
     ACTION_WARP_TYPE,
     ACTION_SLOPE,      // the pattern
     ACTION_SLOPE_ITEM, // what stands in its braces
@@ -157,8 +158,8 @@ typedef enum SchemaAction {
     ACTION_CHARSET,
     ACTION_NOISE_GENERATOR,
     ACTION_SURFACE,
-    ACTION_PICTURE,       // `image_pattern` and the like
-    ACTION_MAP_MATERIAL,  // a texture of a material_map
+    ACTION_PICTURE,      // `image_pattern` and the like
+    ACTION_MAP_MATERIAL, // a texture of a material_map
     ACTION_COUNT
 } SchemaAction;
 

@@ -44,7 +44,7 @@ static int exponent_at(Random *random, size_t scene, size_t i, int most)
 // noise lies in the scene and not in a texture. Other pictures at each scale.
 static const char *const exceptions[] = {"no_bump_scale", "finish_irid"};
 // Surfaces at whole numbers of a pattern that steps there: powers of two keep them, what rounds does not.
-static const char *const steps[] = {"quilted_whole_numbers"};
+static const char *const steps[] = {"quilted_whole_numbers", "pattern_object_surfaces"};
 
 static const double nowhere[3] = {0.0, 0.0, 0.0};
 

@@ -53,6 +53,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_SKY_LAYER] = sky_layer_action,
     [ACTION_WARP] = warp_action,
     [ACTION_TILES] = tiles_action,
+    [ACTION_INSIDE] = pattern_inside_action,
 
     [ACTION_WARP_TYPE] = warp_type_action,
     [ACTION_SLOPE] = slope_action,
@@ -225,6 +226,12 @@ static const SchemaProperty *find_property(const Block *block, const AstNode *it
     SchemaKind kind = is_of_shape ? block->is : block->kind;
     unsigned place = block->ev->objects->properties[kind][word];
     return place ? schema_property(kind, place - 1) : NULL;
+}
+
+const SchemaProperty *block_transform_word(const Block *block, const AstNode *item)
+{
+    const SchemaProperty *property = find_property(block, item);
+    return property && schema_is_transform(property) ? property : NULL;
 }
 
 // Passes over what belongs to a word that is left out: numbers, colours and names, none of them a mistyped property.

@@ -110,6 +110,9 @@ bool block_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 // The kind that a word begins, KIND_NONE when it begins none.
 SchemaKind block_kind(const Eval *ev, const AstNode *node);
 
+// A transform's property, NULL for any other item.
+const SchemaProperty *block_transform_word(const Block *block, const AstNode *item);
+
 // True for a NAME or an element of an array, which may stand for a block.
 bool block_is_name(const AstNode *item);
 
@@ -172,6 +175,7 @@ bool block_read_items(Block *block, SchemaKind *is) RT_MUST_CHECK;
 bool pattern_solid_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_fractal_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool pattern_inside_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // Reports a word that has no meaning beside the pattern that there is, or beside none.
 bool pattern_allows(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -502,6 +506,12 @@ ShapeResult bicubic_make(Eval *ev, const PatchDesc *patch, const Transform *tran
 bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.
 bool shape_flattened(Eval *ev, const ObjectPart *part);
+
+// The object, or the name of one, that comes next; NULL: it is one that rtlang has not. False after a fault.
+bool object_read_one(Block *block, const void **object, SchemaKind *kind) RT_MUST_CHECK;
+
+// place_composite.c: the inside of an object, in a pattern's own space, as one of Scene.insides.
+bool inside_place(Eval *ev, Scene *scene, const InsideDesc *inside, Span span, uint32_t *index) RT_MUST_CHECK;
 
 // boxes.c
 // Whether an object is a sphere of a negative radius that is not stretched.

@@ -158,6 +158,9 @@ static bool place_source(const Builder *builder, const PatternPart *part, Patter
     if (pattern->type == PATTERN_FUNCTION) {
         return formula_place(builder->ev, builder->scene, part->function, builder->span, &pattern->image);
     }
+    if (pattern->type == PATTERN_OBJECT) {
+        return inside_place(builder->ev, builder->scene, part->inside, builder->span, &pattern->image);
+    }
     if (pattern->type != PATTERN_IMAGE_MAP && pattern_is_picture(pattern->type)) {
         return image_place(builder->ev, builder->scene, part->image, &pattern->image);
     }

@@ -145,6 +145,24 @@ bool object_members(Block *block)
     return is_fine;
 }
 
+bool object_read_one(Block *block, const void **object, SchemaKind *kind)
+{
+    UnionMember *first = NULL;
+    MemberList list = {.end = &first};
+    const AstNode *item = cursor_peek(&block->cursor);
+    bool is_member = false;
+    if (item && !read_member(block, &list, item, &is_member)) {
+        return false;
+    }
+    if (!is_member) {
+        return block_fault(block, DIAG_E0253, block_here(block), "`object` needs an object, or the name of one, first");
+    }
+    cursor_skip(&block->cursor);
+    *object = first ? first->object : NULL;
+    *kind = first ? first->kind : KIND_NONE;
+    return true;
+}
+
 bool union_close(Block *block)
 {
     // After a fault, here or before, what is missing may be missing because of it.

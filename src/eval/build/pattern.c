@@ -34,6 +34,7 @@ static bool is_of_pattern(const SchemaProperty *property)
     case ACTION_SLOPE:
     case ACTION_FUNCTION:
     case ACTION_TILES:
+    case ACTION_INSIDE:
     case ACTION_PICTURE:
     case ACTION_WARP:
     case ACTION_PATTERN_SOLID:
@@ -61,7 +62,8 @@ static bool fits_texture(Block *block, const SchemaProperty *property, const Ast
     }
     bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_FUNCTION ||
                        property->action == ACTION_SLOPE || property->action == ACTION_TILES ||
-                       property->action == ACTION_MAP || property->action == ACTION_PICTURE; // of its own
+                       property->action == ACTION_INSIDE || property->action == ACTION_MAP ||
+                       property->action == ACTION_PICTURE; // of its own
     return !is_word || !block->is_plain || has_message ||
            block_fault(block, DIAG_E0256, item->span, "`%s` can stand only in a texture that begins with a pattern",
                        property->word);
@@ -332,6 +334,77 @@ bool pattern_function_action(Block *block, const SchemaProperty *property, const
     part->pattern.type = PATTERN_FUNCTION;
     part->function = value.function;
     return pattern_read_amount(block);
+}
+
+// The transforms that follow an object in the braces of a pattern.
+static bool read_inside_transforms(Block *block, Transform *transform)
+{
+    Desc record;
+    const AstNode *item;
+    memcpy(&record, schema_kind(KIND_TRANSFORM)->defaults, schema_kind(KIND_TRANSFORM)->size);
+    Block moves = {.ev = block->ev,
+                   .node = block->node,
+                   .arena = block->arena,
+                   .cursor = block->cursor,
+                   .record = &record,
+                   .kind = KIND_TRANSFORM,
+                   .is = KIND_TRANSFORM};
+    const SchemaProperty *property;
+    bool is_fine = true;
+    while (is_fine && (item = cursor_peek(&moves.cursor)) && (property = block_transform_word(&moves, item))) {
+        cursor_skip(&moves.cursor);
+        is_fine = transform_action(&moves, property, item);
+    }
+    block->cursor = moves.cursor;
+    *transform = record.transform;
+    return is_fine;
+}
+
+// An object, how it is moved, and what lies outside and inside of it.
+static bool read_inside(Block *block, const AstNode *item)
+{
+    InsideDesc inside = {.object = NULL};
+    SchemaKind kind;
+    if (!object_read_one(block, &inside.object, &kind) || !read_inside_transforms(block, &inside.transform)) {
+        return false;
+    }
+    if (!inside.object) {
+        block->record->patterned.pattern.type = PATTERN_NONE;
+        block->is_lost = true;
+        return true;
+    }
+    inside.kind = (int)kind;
+    block->record->patterned.inside = arena_copy(block->arena, &inside, sizeof inside);
+    if (!block->record->patterned.inside) {
+        return eval_no_memory(block->ev, item->span);
+    }
+    cursor_take_comma(&block->cursor);
+    if (block->kind != KIND_PATTERN && !pattern_read_blocks(block, PATTERN_OBJECT, item->span)) {
+        return false;
+    }
+    const AstNode *rest = cursor_peek(&block->cursor);
+    return !rest ||
+           block_fault(block, DIAG_E0254, rest->span, "nothing else can stand in the braces of the pattern `object`");
+}
+
+bool pattern_inside_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    if (!pattern_may_begin(block, property, item)) {
+        return false;
+    }
+    if (block->kind == KIND_NORMAL) {
+        block->record->patterned.map = NULL; // as of other blocks
+    }
+    if (!pattern_begin(block, PATTERN_OBJECT, item)) {
+        return false;
+    }
+    block->record->patterned.pattern.frequency = 0.0; // 0 and 1 stay as they are
+    Cursor behind = block->cursor;
+    cursor_open(&block->cursor, block->ev, item->a, item->span);
+    bool is_read = read_inside(block, item);
+    cursor_close(&block->cursor);
+    block->cursor = behind;
+    return is_read && pattern_read_amount(block);
 }
 
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item)

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/build/place.h"
 
+#include <stdlib.h>
+
 #include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 
@@ -14,6 +16,7 @@ typedef struct Branch {
     bool is_inverse; // one of those that a difference takes away
     bool was_turned; // as of an object: it, or a group around it
     bool is_unseen;
+    bool is_inside; // of a pattern: only what is inside counts
     bool is_in_merge;
     bool is_in_box; // a member of a union or merge of which POV-Ray sees what is in its box
 } Branch;
@@ -89,16 +92,22 @@ static bool grow_clips(Eval *ev, const ClipChain *chain, const Primitive *shape,
     return true;
 }
 
-// A sphere of radius 0 is an empty union: nothing is inside of it. With any other shape without extent POV-Ray draws
+// An empty union: nothing is inside of it.
+static bool grow_empty(Eval *ev, const ObjectPart *part, const Branch *branch)
+{
+    uint32_t node;
+    return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch, part->span, &node);
+}
+
+// A sphere of radius 0 is one. With any other shape without extent POV-Ray draws
 // nothing of the whole.
 static bool grow_nothing(Eval *ev, SchemaKind kind, const ObjectPart *part, const Branch *branch)
 {
-    uint32_t node;
     if (kind != KIND_SPHERE) {
         return eval_fault(ev, DIAG_E0364, part->span, "a %s without extent cannot be cut with other shapes",
                           schema_kind(kind)->word);
     }
-    return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch, part->span, &node);
+    return grow_empty(ev, part, branch);
 }
 
 // Intervals of a line in all parts of a composite: of a stack of STACK_BYTES they take half.
@@ -123,6 +132,9 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     if (branch->is_in_box && box_is_inside_out(kind, object)) {
         return box_fault(ev, common->span);
     }
+    if (kind == KIND_BICUBIC_PATCH && branch->is_inside) {
+        return grow_empty(ev, common, branch);
+    }
     if (kind == KIND_BICUBIC_PATCH) {
         return eval_fault(ev, DIAG_E0362, common->span,
                           "a bicubic_patch has no inside, and POV-Ray does not clip it: nothing can be cut with it");
@@ -135,7 +147,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     // Flat ones may be clipped, which is their first node then.
     const Node *parent = &ev->scene->nodes.items[branch->parent];
     bool is_clipped_alone = parent->op == NODE_CLIP && parent->child_count == 0 && parent->parent == NODE_NONE;
-    if (primitive_kind_is_flat(primitive.kind) && !is_clipped_alone) {
+    if (primitive_kind_is_flat(primitive.kind) && !is_clipped_alone && !branch->is_inside) {
         return eval_fault(ev, DIAG_E0362, common->span, "a %s has no inside, so nothing can be cut with it",
                           primitive_class(primitive_class(primitive.kind)->surface)->word);
     }
@@ -209,6 +221,9 @@ bool place_has_no_look(Eval *ev, const LightDesc *light)
 // Recursive, as `place` is.
 static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *outer)
 {
+    if (kind == KIND_LIGHT_SOURCE && outer->is_inside) {
+        return true;
+    }
     if (kind == KIND_LIGHT_SOURCE) {
         return light_place(ev, object, &outer->placement.outer) && place_has_no_look(ev, object);
     }
@@ -227,7 +242,7 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
         branch.placement.texture_outer = outer->placement.outer;
     }
     branch.placement.interior = part->interior ? part->interior : outer->placement.interior;
-    if (part->interior && outer->parent != NODE_NONE) {
+    if (part->interior && outer->parent != NODE_NONE && !outer->is_inside) {
         branch.body = ++ev->scene->inner_body_count;
     }
     branch.placement.is_inner = true;
@@ -265,4 +280,59 @@ bool place_composite(Eval *ev, SchemaKind kind, const void *object, const Placem
     bool is_grown = grow(ev, kind, object, &root);
     scene_end_composite(ev->scene);
     return is_grown;
+}
+
+// ---- the inside of an object, as a pattern
+
+static bool grow_inside(Eval *ev, const InsideDesc *inside, Span span)
+{
+    Branch root = {.placement = {.outer = inside->transform, .body = RECORD_NONE}, .parent = NODE_NONE};
+    root.is_unseen = root.is_inside = true;
+    if (!scene_begin_composite(ev->scene, 0, span.begin)) {
+        return eval_no_memory(ev, span);
+    }
+    Branch branch = root;
+    bool is_grown = add_node(ev, NODE_UNION, false, &root, span, &branch.parent) &&
+                    grow(ev, (SchemaKind)inside->kind, inside->object, &branch);
+    scene_end_composite(ev->scene);
+    return is_grown;
+}
+
+// What asks for more than numbers: formulas with noise or patterns, and textures of faces.
+static bool inside_is_plain(const Scene *inside)
+{
+    bool is_plain = !inside->formula_host;
+    for (size_t i = 0; is_plain && i < inside->primitives.count; i++) {
+        const Primitive *primitive = &inside->primitives.items[i];
+        is_plain = !primitive_class(primitive->kind)->is_mesh || !primitive->mesh.mesh->face_textures;
+    }
+    return is_plain;
+}
+
+enum { INSIDES_MOST = 10000 }; // each is compared with all before it
+
+bool inside_place(Eval *ev, Scene *scene, const InsideDesc *inside, Span span, uint32_t *index)
+{
+    if (scene->insides.count >= INSIDES_MOST) {
+        return eval_fault(ev, DIAG_E0291, span, "at most %d different objects can be patterns", (int)INSIDES_MOST);
+    }
+    Scene *own = malloc(sizeof *own), *around = ev->scene;
+    if (!own) {
+        return eval_no_memory(ev, span);
+    }
+    scene_init(own);
+    ev->scene = own;
+    bool is_fine = grow_inside(ev, inside, span);
+    ev->scene = around;
+    if (is_fine && !inside_is_plain(own)) {
+        is_fine = eval_fault(ev, DIAG_E0251, ((const ObjectPart *)inside->object)->span,
+                             "an isosurface of noise or patterns, or a mesh with textures of its own, is not supported "
+                             "as a pattern by rtlang");
+    }
+    if (!is_fine) {
+        scene_fini(own);
+        free(own);
+        return false;
+    }
+    return (scene_add_inside(scene, own, index) || eval_no_memory(ev, span)) && memory_suffices(ev, span);
 }

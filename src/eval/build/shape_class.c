@@ -11,11 +11,10 @@
 #include "eval/build/blocks.h"
 #include "math/extreme.h"
 #include "scene/polynomial.h"
+#include "scene/within.h"
 
 // Half of what a disc is thick.
 static const double disc_thickness = 0.001;
-// Sides of planes are distinguished with this. Measured.
-static const double plane_tolerance = 1e-10;
 
 // ---- sphere and plane: their extents follow rules of their own
 
@@ -44,7 +43,7 @@ static bool plane_holds(const void *object, Vec3 p, bool is_turned)
 {
     const PlaneDesc *plane = object;
     double beyond = vec3_dot(vec3_normalize(plane->normal), p) - plane->distance;
-    return (is_turned ? -beyond : beyond) < plane_tolerance;
+    return (is_turned ? -beyond : beyond) < WITHIN_PLANE;
 }
 
 // ---- box

@@ -17,6 +17,7 @@
 #include "render/surface/pattern_fractal.h"
 #include "render/surface/pattern_noise.h"
 #include "render/surface/warp.h"
+#include "scene/within.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -146,6 +147,11 @@ static double brick(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     return is_mortar ? 0.0 : 1.0;
 }
 
+static double inside(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return within_inside(source->insides[pattern->image], p) ? 1.0 : 0.0;
+}
+
 static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_CHECKER] = checker,
     [PATTERN_HEXAGON] = hexagon,
@@ -182,6 +188,7 @@ static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_MANDEL] = pattern_fractal,
     [PATTERN_JULIA] = pattern_fractal,
     [PATTERN_QUILTED] = quilted,
+    [PATTERN_OBJECT] = inside,
 };
 
 static double wave(const Pattern *pattern, double x)

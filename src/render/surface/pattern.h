@@ -32,6 +32,7 @@ typedef struct NoiseSource {
     const Warp *warps;
     const Transform *warp_back; // of each warp, into the space behind it
     const FormulaStep *steps;
+    struct Scene *const *insides;
     const struct TextureTable *table;
     const struct Facing *facing; // of a surface; NULL where there is none
 } NoiseSource;

@@ -235,6 +235,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     table->source.warps = scene->warps.items;
     table->source.warp_back = table->warp_back;
     table->source.steps = scene->formula_steps.items;
+    table->source.insides = scene->insides.items;
     table->source.table = table;
     for (size_t i = 0; i < scene->warps.count; i++) {
         table->warp_back[i] = way_back(&scene->warps.items[i].to_outside);
