@@ -95,12 +95,13 @@ plane { z, 0
     texture { pigment { rgb 0.5 } finish { Grainy } }
     texture { pigment { rgb 1 transmit 0.6 } finish { Grainy } }
     texture { pigment { rgb 1 transmit 0.6 } finish { Grainy } }
+    texture { pigment { rgb 0.7 transmit 1 } finish { Grainy } }
 }
 """
 
 
 def judge_layers(tap, folder):
-    """Each layer has grain of its own: all of one would be twice as uneven."""
+    """Each layer has grain of its own, a clear one, too: all of one would be twice as uneven."""
     scene, picture = os.path.join(folder, "layers.pov"), os.path.join(folder, "layers.png")
     with open(scene, "w", encoding="ascii") as out:
         out.write(LAYERS)

@@ -533,7 +533,9 @@ class Writer:
         items = self.solid_of(self.surface) if head.startswith("text") else self.surface()
         if self.chance(0.2):
             items = self.shuffled_in([self.interior()], items)
-        items = self.shuffled_in([self.transform(0.2) for _ in self.some(2)], items)
+        # A matrix that stretches a smooth triangle: docs/language.md, "Stretched smooth triangles".
+        move = (lambda: f"rotate {self.vector(-180, 180)}") if head.startswith("smooth") else lambda: self.transform(0.2)
+        items = self.shuffled_in([move() for _ in self.some(2)], items)
         early = []
         if is_simple and self.chance(0.15):
             early = [self.clip()]

@@ -65,10 +65,12 @@ RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned featur
     return out;
 }
 
-// Whether lights make anything of a surface; where they do not, none is asked for.
+// Whether lights make anything of a surface; where they do not, none is asked for. Of a clear one grain takes away what
+// shines through it.
 RT_ALWAYS_INLINE bool shade_takes_light(const PreparedFinish *finish, Rgb opaque)
 {
-    return finish->shines || ((finish->diffuse > 0.0 || finish->diffuse_back > 0.0) && !rgb_is_black(opaque));
+    return finish->shines || ((finish->diffuse > 0.0 || finish->diffuse_back > 0.0) &&
+                              (!rgb_is_black(opaque) || finish->crand > 0.0));
 }
 
 RT_ALWAYS_INLINE uint32_t shade_interior(const Prepared *p, MaterialIndex material)
