@@ -352,12 +352,13 @@ static bool read_inside_transforms(Block *block, Transform *transform)
     const SchemaProperty *property;
     bool is_fine = true;
     while (is_fine && (item = cursor_peek(&moves.cursor)) && (property = block_transform_word(&moves, item))) {
+        is_fine = cursor_lacks_comma(&moves.cursor, "the pattern `object`");
         cursor_skip(&moves.cursor);
-        is_fine = transform_action(&moves, property, item);
+        is_fine = is_fine && transform_action(&moves, property, item);
     }
     block->cursor = moves.cursor;
     *transform = record.transform;
-    return is_fine;
+    return is_fine && cursor_lacks_comma(&block->cursor, "the pattern `object`");
 }
 
 // An object, how it is moved, and what lies outside and inside of it.
@@ -378,7 +379,6 @@ static bool read_inside(Block *block, const AstNode *item)
     if (!block->record->patterned.inside) {
         return eval_no_memory(block->ev, item->span);
     }
-    cursor_take_comma(&block->cursor);
     if (block->kind != KIND_PATTERN && !pattern_read_blocks(block, PATTERN_OBJECT, item->span)) {
         return false;
     }
