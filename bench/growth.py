@@ -122,14 +122,6 @@ def drops(p, count=6):
     return f"blob {{ threshold 0.5 {' '.join(parts)} {turned(p, p.size)} }}\n"
 
 
-def one_blob(count):
-    places = Places(count)
-    yield "blob { threshold 0.4\n"
-    for _ in range(count):
-        yield f"sphere {{ {vector(places.place())}, {2 * places.size:.6g}, 1 }}\n"
-    yield "pigment { rgb 0.8 } }\n"
-
-
 def hills(count):
     """A height field of so many columns and rows, from a function."""
     yield (f"height_field {{ function {count}, {count} {{ 0.5 + 0.2 * sin(13*x) * cos(11*y) + 0.1 * sin(67*x + 3) * sin(59*y) }} "
@@ -266,7 +258,7 @@ KINDS = {
     "isosurfaces": each(shaped(WAVES)),
     "one torus": large(TORUS),
     "one quartic": large(QUARTIC),
-    "one blob": one_blob,
+    "one blob": whole("blob", lambda p: f"sphere {{ {vector(p.place())}, {2 * p.size:.6g}, 1 }}\n", head="threshold 0.4"),
     "one superellipsoid": large("superellipsoid { <0.25, 0.25> scale 0.5"),
     "one lathe": large(FLOWER),
     "one surface of revolution": large(VASE),

@@ -202,6 +202,8 @@ bool pattern_begin(Block *block, PatternType type, const AstNode *item) RT_MUST_
 bool pattern_read_amount(Block *block) RT_MUST_CHECK;
 // A function and what it gives at a point.
 bool pattern_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// A picture whose values are a pattern, heights or numbers of textures.
+bool pattern_picture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 
 // pattern_slope.c
 bool slope_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -211,6 +213,8 @@ bool slope_close(Block *block) RT_MUST_CHECK;
 // pattern_map.c
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_map_body(Block *block) RT_MUST_CHECK;
+// The next texture of a material_map.
+bool material_texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // The blocks or colours that follow a pattern such as `checker`, those that are not said by default: its map.
 bool pattern_read_blocks(Block *block, PatternType type, Span span) RT_MUST_CHECK;
 
@@ -306,8 +310,6 @@ bool rainbows_finish(Eval *ev) RT_MUST_CHECK;
 // image.c
 // What the braces of image_pattern, bump_map or material_map say; NULL: a fault is reported.
 const ImageDesc *image_read_numbers(Block *block, const AstNode *item, PatternType type) RT_MUST_CHECK;
-bool pattern_picture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
-bool material_texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_body(Block *block) RT_MUST_CHECK; // of image_map

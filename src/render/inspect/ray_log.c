@@ -324,8 +324,7 @@ static void follow_surface(Follower *follower, const ShadingPoint *at)
     if (at->material & MATERIAL_COMPOUND) {
         uint32_t texture = p->compounds[at->material & ~MATERIAL_COMPOUND].texture;
         Vec3 room;
-        const Vec3 *uv = shade_uv(p, texture, at->shape, at->point, &room);
-        TextureSight sight = {at->point, uv, &at->normal, &at->direction, false};
+        TextureSight sight = shade_sight(p, texture, at, &room);
         texture_walk(&p->textures, texture, sight, p->adc_bailout, follow_layer, follower);
     } else {
         const Material *plain = &p->materials[at->material];

@@ -98,13 +98,6 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
     return left;
 }
 
-// `room` is for surface coordinates, if the texture asks for them.
-static TextureSight sight_of(const Prepared *p, const Compound *compound, const ShadingPoint *at, Vec3 *room)
-{
-    const Vec3 *uv = shade_uv(p, compound->texture, at->shape, at->point, room);
-    return (TextureSight){at->point, uv, &at->normal, &at->direction, false};
-}
-
 Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, ScatterRecord *scatter,
                    RenderStatistics *statistics)
 {
@@ -115,7 +108,7 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     LayerSum sum = {p, &shared, weight, scatter, statistics, .own = &own};
     *scatter = (ScatterRecord){.reflection_exponent = 1.0, .refraction = refraction_of(p, compound)};
     Vec3 room;
-    TextureSight sight = sight_of(p, compound, at, &room);
+    TextureSight sight = shade_sight(p, compound->texture, at, &room);
     TextureThrough through = texture_walk(&p->textures, compound->texture, sight, p->adc_bailout, add_layer, &sum);
     end_mirrors(&sum, scatter, 1, true, !lets_through(&sum));
     scatter->through = through.light;
@@ -221,7 +214,7 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
     };
     ways->count = 0;
     Vec3 room;
-    TextureSight sight = sight_of(p, compound, at, &room);
+    TextureSight sight = shade_sight(p, compound->texture, at, &room);
     texture_walk(&p->textures, compound->texture, sight, p->adc_bailout, add_bumpy_layer, &bumps);
     end_stack(&bumps);
     if (ways->count == 0) {

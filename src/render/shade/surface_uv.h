@@ -1,10 +1,10 @@
-// The surface coordinates at a point that a ray met, for the textures that ask for some.
+// What a texture sees of a point that a ray met, with the surface coordinates there where it asks for some.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SHADE_SURFACE_UV_H
 #define RENDER_SHADE_SURFACE_UV_H
 
-#include "render/records/prepared.h"
+#include "render/shade/shade_light.h"
 #include "trace/surface_map.h"
 
 // Put into *room; NULL where the texture asks for none.
@@ -15,6 +15,13 @@ static inline const Vec3 *shade_uv(const Prepared *p, uint32_t texture, ShapeId 
     }
     *room = geometry_uv(p->geometry, p->scene, shape, point, vec3_scale(p->textures.scale, point));
     return room;
+}
+
+// Of a surface that is shaded. *room is for the coordinates; what is returned points into both.
+static inline TextureSight shade_sight(const Prepared *p, uint32_t texture, const ShadingPoint *at, Vec3 *room)
+{
+    const Vec3 *uv = shade_uv(p, texture, at->shape, at->point, room);
+    return (TextureSight){at->point, uv, &at->normal, &at->direction, false};
 }
 
 #endif
