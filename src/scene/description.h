@@ -51,7 +51,6 @@ typedef struct WarpDesc WarpDesc;
 struct WarpDesc {
     Warp warp; // `next` is not set
     const WarpDesc *before;
-    bool types[WARP_TYPES]; // while it is read
     unsigned count; // with those before it
 };
 

@@ -292,6 +292,10 @@ static void dump_warp(const Warp *warp, TextBuffer *out)
         dump_number(out, ", ", warp->radius);
         dump_number(out, " strength ", warp->strength);
         dump_number(out, " falloff ", warp->power);
+        if (vec3_length_squared(warp->flip) > 0.0) {
+            dump_vector(out, " repeat ", warp->flip);
+            dump_vector(out, " turbulence ", warp->offset);
+        }
         text_append(out, warp->flags & WARP_INVERSE ? " inverse }\n" : " }\n");
         return;
     case WARP_PLANAR:

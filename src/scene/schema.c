@@ -640,13 +640,13 @@ static const SlopeDesc slope_defaults = {.high_altitude = 0.0};
 #define WARP_AT(field) .at = (uint16_t)offsetof(WarpDesc, warp.field)
 
 static const SchemaProperty warp_properties[] = {
-    {"turbulence", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector: moves each point by noise, so much"},
+    {"turbulence", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then a vector: moves each point by noise, so much; of `black_hole`: its places"},
     {"octaves", TYPE_INTEGER, WARP_AT(octaves), .range = {RANGE_CLAMP, false, 1.0, 10.0},
      .doc = "of turbulence: noises added up"},
     {"lambda", TYPE_NUMBER, WARP_AT(lambda), .doc = "of turbulence: how much finer each octave is"},
     {"omega", TYPE_NUMBER, WARP_AT(omega), .doc = "of turbulence: how much weaker each octave is"},
     {"repeat", TYPE_ACTION, ACTION_WARP_TYPE,
-     .doc = "then a vector along x, y or z: the slice so wide again and again"},
+     .doc = "then a vector along x, y or z: the slice so wide again and again; of `black_hole`: boxes"},
     {"offset", TYPE_VECTOR, WARP_AT(offset), .doc = "of `repeat`: each slice from the one before"},
     {"flip", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "of `repeat`: every other slice is turned where this is not 0"},
     {"black_hole", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then its middle and its radius: draws points to its middle"},

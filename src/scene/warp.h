@@ -30,8 +30,8 @@ enum { WARP_INVERSE = 1 }; // of a black hole
 typedef struct Warp {
     Transform to_outside; // from the space behind it
     Vec3 vector;   // turbulence: how far; repeat: along and how wide; black hole: its middle; mappings: orientation
-    Vec3 offset;   // repeat: of each slice from the one before; black hole: turbulence of its places
-    Vec3 flip;     // repeat: components of every other slice that are turned; black hole: where it is repeated
+    Vec3 offset;   // repeat: of each slice from the one before; black hole: how far its places are off
+    Vec3 flip;     // repeat: components of every other slice that are turned; black hole: how wide what has one each is, 0 for all of space
     double radius; // black hole; planar: its distance; toroidal: of the ring
     double strength, power; // black hole
     double lambda, omega;   // turbulence

@@ -457,7 +457,8 @@ static bool may_stand_here(Block *block, const SchemaProperty *property, const A
     }
     bool is_patterned = block->kind == KIND_TEXTURE || block->kind == KIND_PIGMENT || block->kind == KIND_NORMAL ||
                         block->kind == KIND_PATTERN;
-    if (is_patterned && !pattern_allows(block, property, item)) {
+    if ((is_patterned && !pattern_allows(block, property, item)) ||
+        (block->kind == KIND_WARP && !warp_allows(block, property, item))) {
         return false;
     }
     if (item->kind == AST_BLOCK && !takes_braces(property)) {

@@ -220,6 +220,8 @@ bool pattern_read_blocks(Block *block, PatternType type, Span span) RT_MUST_CHEC
 
 // warp.c
 bool warp_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// Whether a word may stand where it stands in `warp { }`.
+bool warp_allows(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool warp_type_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool warp_close(Block *block) RT_MUST_CHECK;
 // Records of a pattern's warps, of which `last` was said last: Pattern.warps.

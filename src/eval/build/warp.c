@@ -4,6 +4,8 @@
 // since then; the pattern's own transform begins anew. Knows nothing of how a point is bent.
 //
 // SPDX-License-Identifier: MIT
+#include <math.h>
+
 #include "eval/build/blocks.h"
 
 enum { WARPS_MOST = 100 }; // of one pattern
@@ -59,25 +61,11 @@ static bool read_hole(Block *block, Span span)
     return read_number(block, "black_hole", offsetof(WarpDesc, warp.radius), span);
 }
 
-// POV-Ray moves and repeats black holes by chance.
-static bool refuse_of_hole(Block *block, const SchemaProperty *property, Span span)
+// A black hole where it is repeated, and by how much its places there are off.
+static bool read_of_hole(Block *block, WarpType type, Span span)
 {
-    block_unsupported(block->ev, property->word, span, KIND_WARP);
-    block->has_unsupported = true;
-    return read_vector(block, property->word, offsetof(WarpDesc, warp.offset), span);
-}
-
-static bool begin_type(Block *block, WarpType type, Span span, const char *word)
-{
-    WarpDesc *warp = &block->record->warp;
-    for (int other = 0; other < WARP_TYPES; other++) {
-        if (warp->types[other] && other != (int)type) {
-            return block_fault(block, DIAG_E0256, span, "`%s`: a warp is of one kind", word);
-        }
-    }
-    warp->types[type] = true;
-    warp->warp.type = type;
-    return true;
+    return type == WARP_REPEAT ? read_vector(block, "repeat", offsetof(WarpDesc, warp.flip), span)
+                               : read_vector(block, "turbulence", offsetof(WarpDesc, warp.offset), span);
 }
 
 static bool type_of_word(Symbol word, WarpType *type)
@@ -112,24 +100,63 @@ static bool type_of_word(Symbol word, WarpType *type)
     }
 }
 
+// The warps that each word belongs to, beside those that are warps themselves.
+static unsigned warps_of_word(Symbol word)
+{
+    enum { MAPPINGS = 1 << WARP_CYLINDRICAL | 1 << WARP_SPHERICAL | 1 << WARP_TOROIDAL };
+    switch ((Word)word) {
+    case W_octaves:
+    case W_lambda:
+    case W_omega:
+        return 1 << WARP_TURBULENCE;
+    case W_offset:
+    case W_flip:
+        return 1 << WARP_REPEAT;
+    case W_repeat:
+    case W_turbulence:
+    case W_strength:
+    case W_falloff:
+    case W_inverse:
+        return 1 << WARP_BLACK_HOLE;
+    case W_orientation:
+    case W_dist_exp:
+        return MAPPINGS;
+    case W_major_radius:
+        return 1 << WARP_TOROIDAL;
+    default:
+        return 0;
+    }
+}
+
+bool warp_allows(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    WarpType type;
+    if (block->items == 0) {
+        return type_of_word(item->symbol, &type) ||
+               block_fault(block, DIAG_E0256, item->span,
+                           "`%s` cannot begin a warp: its kind stands first, such as "
+                           "`turbulence`",
+                           property->word);
+    }
+    return warps_of_word(item->symbol) & 1u << block->record->warp.warp.type ||
+           block_fault(block, DIAG_E0256, item->span, "`%s` does not belong to this kind of warp", property->word);
+}
+
 bool warp_type_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    WarpDesc *warp = &block->record->warp;
-    bool is_hole = warp->types[WARP_BLACK_HOLE];
+    Warp *warp = &block->record->warp.warp;
     WarpType type;
     if (!type_of_word(item->symbol, &type)) {
         if (item->symbol == W_flip) {
             return read_vector(block, property->word, offsetof(WarpDesc, warp.flip), item->span);
         }
-        warp->warp.flags |= WARP_INVERSE;
+        warp->flags |= WARP_INVERSE;
         return true;
     }
-    if (is_hole && (type == WARP_REPEAT || type == WARP_TURBULENCE)) {
-        return refuse_of_hole(block, property, item->span);
+    if (block->items > 1) {
+        return read_of_hole(block, type, item->span);
     }
-    if (!begin_type(block, type, item->span, property->word)) {
-        return false;
-    }
+    warp->type = type;
     switch (type) {
     case WARP_TURBULENCE:
         return read_vector(block, property->word, offsetof(WarpDesc, warp.vector), item->span);
@@ -144,28 +171,47 @@ bool warp_type_action(Block *block, const SchemaProperty *property, const AstNod
     }
 }
 
-static bool has_type(const WarpDesc *warp)
+// Along one axis: the hole lies wholly in its slice of space, and what is too narrow for it grows, as in POV-Ray.
+// Measured.
+static double width_for_hole(double *middle, double radius, double width, double aside)
 {
-    for (int type = 0; type < WARP_TYPES; type++) {
-        if (warp->types[type]) {
-            return true;
-        }
+    if (width == 0.0) {
+        return 0.0;
     }
-    return false;
+    *middle = fmax(*middle, radius);
+    return fmax(*middle + radius + aside, width);
+}
+
+// What is not greater than 0 repeats nothing.
+static void close_hole(Block *block)
+{
+    Warp *warp = &block->record->warp.warp;
+    Vec3 *middle = &warp->vector, *aside = &warp->offset;
+    Vec3 said = {fmax(warp->flip.x, 0.0), fmax(warp->flip.y, 0.0), fmax(warp->flip.z, 0.0)};
+    Vec3 width = {width_for_hole(&middle->x, warp->radius, said.x, aside->x),
+                  width_for_hole(&middle->y, warp->radius, said.y, aside->y),
+                  width_for_hole(&middle->z, warp->radius, said.z, aside->z)};
+    if (width.x > said.x || width.y > said.y || width.z > said.z) {
+        eval_warn(block->ev, DIAG_W0341, block->node->span,
+                  "`repeat` should be at least <%g, %g, %g>, so that the hole is within it", width.x, width.y, width.z);
+    }
+    warp->flip = width;
+    if (!(vec3_length_squared(width) > 0.0)) {
+        *aside = (Vec3){0.0, 0.0, 0.0};
+    }
 }
 
 bool warp_close(Block *block)
 {
-    const WarpDesc *warp = &block->record->warp;
-    if (!has_type(warp)) {
+    const Warp *warp = &block->record->warp.warp;
+    if (block->items == 0) {
         return block->has_unsupported || block_fault(block, DIAG_E0253, block->node->span,
                                                      "`warp` needs the word of a warp, such as `turbulence`");
     }
-    if (warp->warp.type == WARP_CUBIC && block->items > 1) {
-        return block_fault(block, DIAG_E0256, block->node->span, "nothing else can stand in a warp with `cubic`");
+    if (warp->type == WARP_BLACK_HOLE) {
+        close_hole(block);
     }
-    bool is_mapping = warp->warp.type >= WARP_PLANAR;
-    return !is_mapping || vec3_length_squared(warp->warp.vector) > 0.0 ||
+    return warp->type < WARP_PLANAR || vec3_length_squared(warp->vector) > 0.0 ||
            block_fault(block, DIAG_E0342, block->node->span, "the orientation of a warp cannot be <0, 0, 0>");
 }
 

@@ -23,10 +23,12 @@ static double within(double x, double low, double high)
     return low != high ? (x - low) / (high - low) : x;
 }
 
-// Whole turns of the map are left out at once, and exactly; other patterns do so after 1.00001. Measured.
+// Whole turns of the map are left out at once, and exactly, and what is below 0 is in the turn before: other patterns do
+// so after 1.00001, and after their `frequency`. Measured.
 static double in_map(double x)
 {
-    return fabs(x) > 1.0 ? fmod(x, 1.0) : x;
+    double part = fabs(x) > 1.0 ? fmod(x, 1.0) : x;
+    return part < 0.0 ? part + 1.0 : part;
 }
 
 double facing_slope(const Pattern *pattern, const NoiseSource *source, Vec3 p)

@@ -15,6 +15,7 @@
 #include "math/given_surface.h"
 #include "render/surface/facing.h"
 #include "render/surface/formula.h"
+#include "render/surface/warp.h"
 #include "scene/blob.h"
 #include "scene/corners.h"
 
@@ -70,7 +71,7 @@ static bool asks_for_noise(const Scene *scene)
 {
     bool found = false;
     for (size_t i = 0; !found && i < scene->warps.count; i++) {
-        found = scene->warps.items[i].type == WARP_TURBULENCE;
+        found = warp_needs_noise(&scene->warps.items[i]);
     }
     for (size_t i = 0; !found && i < scene->formula_steps.count; i++) {
         uint32_t op = scene->formula_steps.items[i].op;

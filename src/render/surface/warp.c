@@ -49,10 +49,33 @@ static Vec3 repeat(const Warp *warp, const NoiseSource *source, Vec3 p)
     return vec3_add_scaled(p, number, warp->offset);
 }
 
+bool warp_needs_noise(const Warp *warp)
+{
+    return warp->type == WARP_TURBULENCE || (warp->type == WARP_BLACK_HOLE && vec3_length_squared(warp->offset) > 0.0);
+}
+
+// The number of the slice that a coordinate is in.
+static double slice_of(double width, double coordinate)
+{
+    return width > 0.0 ? floor(coordinate / width) : 0.0;
+}
+
+// Where the hole is in the part of space that a point is in; by chance, from there, as crackle has its sites. Measured.
+static Vec3 hole_middle(const Warp *warp, const NoiseSource *source, Vec3 p)
+{
+    Vec3 width = warp->flip;
+    Vec3 part = vec3(slice_of(width.x, p.x), slice_of(width.y, p.y), slice_of(width.z, p.z));
+    Vec3 middle = vec3_add(warp->vector, vec3_mul(part, width));
+    static const double largest = 1e15; // parts beyond have no whole numbers to speak of
+    bool is_near = fabs(part.x) < largest && fabs(part.y) < largest && fabs(part.z) < largest;
+    return !is_near || !warp_needs_noise(warp)
+               ? middle
+               : vec3_add(middle, vec3_mul(vec3_sub(noise_site(source->noise, part), part), warp->offset));
+}
+
 static Vec3 black_hole(const Warp *warp, const NoiseSource *source, Vec3 p)
 {
-    (void)source;
-    Vec3 way = vec3_sub(p, warp->vector);
+    Vec3 way = vec3_sub(p, hole_middle(warp, source, p));
     double distance = vec3_length(way);
     if (!(distance < warp->radius) || distance == 0.0) {
         return p;
@@ -139,9 +162,10 @@ static Vec3 cubic(const Warp *warp, const NoiseSource *source, Vec3 p)
 }
 
 static const WarpFunction functions[WARP_TYPES] = {
-    [WARP_TURBULENCE] = turbulence, [WARP_REPEAT] = repeat,           [WARP_BLACK_HOLE] = black_hole,
-    [WARP_PLANAR] = planar,         [WARP_CYLINDRICAL] = cylindrical, [WARP_SPHERICAL] = spherical,
-    [WARP_TOROIDAL] = toroidal,     [WARP_CUBIC] = cubic,
+    [WARP_TURBULENCE] = turbulence,   [WARP_REPEAT] = repeat,
+    [WARP_BLACK_HOLE] = black_hole,   [WARP_PLANAR] = planar,
+    [WARP_CYLINDRICAL] = cylindrical, [WARP_SPHERICAL] = spherical,
+    [WARP_TOROIDAL] = toroidal,       [WARP_CUBIC] = cubic,
 };
 
 Vec3 warp_point(const Pattern *pattern, const NoiseSource *source, Vec3 point)

@@ -10,4 +10,6 @@
 // A point of the space around a pattern's warps, in the pattern's own.
 Vec3 warp_point(const Pattern *pattern, const NoiseSource *source, Vec3 point);
 
+bool warp_needs_noise(const Warp *warp);
+
 #endif
