@@ -646,7 +646,7 @@ static const SchemaProperty warp_properties[] = {
     {"lambda", TYPE_NUMBER, WARP_AT(lambda), .doc = "of turbulence: how much finer each octave is"},
     {"omega", TYPE_NUMBER, WARP_AT(omega), .doc = "of turbulence: how much weaker each octave is"},
     {"repeat", TYPE_ACTION, ACTION_WARP_TYPE,
-     .doc = "then a vector along x, y or z: the slice so wide again and again; of `black_hole`: boxes"},
+     .doc = "then a vector along x, y or z: the slice so wide, again and again; or boxes of holes"},
     {"offset", TYPE_VECTOR, WARP_AT(offset), .doc = "of `repeat`: each slice from the one before"},
     {"flip", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "of `repeat`: every other slice is turned where this is not 0"},
     {"black_hole", TYPE_ACTION, ACTION_WARP_TYPE, .doc = "then its middle and its radius: draws points to its middle"},
