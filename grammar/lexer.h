@@ -185,6 +185,8 @@ Opener *grammar_innermost(GrammarState *state); // NULL when nothing is open
 void grammar_read_token(GrammarState *state, Token *token);
 void grammar_hold_token(GrammarState *state, Token token);
 void grammar_track(GrammarState *state, const Token *token); // keeps the stack of openers
+// After a fault (recovery.c): to where reading can continue; state->current is then TOKEN_RESYNC.
+void grammar_skip(GrammarState *state);
 // Gives the present statement up so that it is read again with its directives resolved. False when that cannot be.
 bool grammar_tear(GrammarState *state);
 

@@ -5,6 +5,7 @@ AM_YFLAGS = -d -Wall -Wno-yacc
 noinst_LTLIBRARIES += libgrammar.la
 libgrammar_la_SOURCES = \
   %D%/block_template.c \
+  %D%/directives.c \
   %D%/fragment.c \
   %D%/grammar.c \
   %D%/grammar.h \
@@ -14,6 +15,7 @@ libgrammar_la_SOURCES = \
   %D%/messages.c \
   %D%/parser.y \
   %D%/quick.c \
+  %D%/recovery.c \
   %D%/statements.c \
   %D%/statements.h \
   %D%/statements_many.c \
@@ -22,5 +24,5 @@ libgrammar_la_SOURCES = \
   %D%/tokens.c \
   %D%/window.c
 # The generated header is included by files of this folder only, so the rule stands here by hand.
-%D%/fragment.lo %D%/grammar.lo %D%/hints.lo %D%/block_template.lo %D%/lexer.lo %D%/messages.lo %D%/statements_many.lo %D%/quick.lo %D%/statements.lo %D%/tokens.lo %D%/window.lo: %D%/parser.h
+%D%/directives.lo %D%/fragment.lo %D%/grammar.lo %D%/hints.lo %D%/block_template.lo %D%/lexer.lo %D%/messages.lo %D%/statements_many.lo %D%/quick.lo %D%/recovery.lo %D%/statements.lo %D%/tokens.lo %D%/window.lo: %D%/parser.h
 MAINTAINERCLEANFILES = %D%/parser.c %D%/parser.h %D%/lexer.c

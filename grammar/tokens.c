@@ -1,95 +1,15 @@
 // The token stream between the scanner and the parser.
 //
-// Passes tokens on, keeps the stack of open brackets and directives, and skips from a token that the parser refuses to
-// a place where reading can continue. It owns the tables of word classes and directives; what is said of a fault is the
-// matter of messages.c, the shape of statements the parser's alone.
+// Passes tokens on and keeps the stack of open brackets and directives. What words are is the matter of directives.c,
+// what is said of a fault that of messages.c, and where reading continues then that of recovery.c; the shape of
+// statements is the parser's alone.
 //
 // SPDX-License-Identifier: MIT
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/suggest.h"
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
-
-enum { GUESS_COST = 3, GUESS_LENGTH = 3 };
-
-typedef struct Directive {
-    Word word;
-    int token;
-    DirectiveRole role;
-} Directive;
-
-static const Directive directives[] = {
-    {W_declare, TOKEN_HASH_DECLARE, ROLE_SIMPLE},
-    {W_local, TOKEN_HASH_LOCAL, ROLE_SIMPLE},
-    {W_undef, TOKEN_HASH_UNDEF, ROLE_SIMPLE},
-    {W_if, TOKEN_HASH_IF, ROLE_OPENS},
-    {W_ifdef, TOKEN_HASH_IFDEF, ROLE_OPENS},
-    {W_ifndef, TOKEN_HASH_IFNDEF, ROLE_OPENS},
-    {W_elseif, TOKEN_HASH_ELSEIF, ROLE_MIDDLE},
-    {W_else, TOKEN_HASH_ELSE, ROLE_ELSE},
-    {W_end, TOKEN_HASH_END, ROLE_END},
-    {W_switch, TOKEN_HASH_SWITCH, ROLE_OPENS},
-    {W_case, TOKEN_HASH_CASE, ROLE_MIDDLE},
-    {W_range, TOKEN_HASH_RANGE, ROLE_MIDDLE},
-    {W_break, TOKEN_HASH_BREAK, ROLE_SIMPLE},
-    {W_while, TOKEN_HASH_WHILE, ROLE_OPENS},
-    {W_for, TOKEN_HASH_FOR, ROLE_OPENS},
-    {W_macro, TOKEN_HASH_MACRO, ROLE_OPENS},
-    {W_include, TOKEN_HASH_INCLUDE, ROLE_SIMPLE},
-    {W_default, TOKEN_HASH_DEFAULT, ROLE_SIMPLE},
-    {W_version, TOKEN_HASH_VERSION, ROLE_SIMPLE},
-    {W_debug, TOKEN_HASH_DEBUG, ROLE_SIMPLE},
-    {W_warning, TOKEN_HASH_WARNING, ROLE_SIMPLE},
-    {W_error, TOKEN_HASH_ERROR, ROLE_SIMPLE},
-    {W_render, TOKEN_HASH_RENDER, ROLE_SIMPLE},
-    {W_statistics, TOKEN_HASH_STATISTICS, ROLE_SIMPLE},
-    {W_fopen, TOKEN_HASH_FOPEN, ROLE_SIMPLE},
-    {W_fclose, TOKEN_HASH_FCLOSE, ROLE_SIMPLE},
-    {W_read, TOKEN_HASH_READ, ROLE_SIMPLE},
-    {W_write, TOKEN_HASH_WRITE, ROLE_SIMPLE},
-};
-
-int grammar_word_token(Symbol symbol)
-{
-    static const short tokens[] = {
-        [WORD_IDENTIFIER] = TOKEN_NAME, [WORD_PLAIN] = TOKEN_WORD,        [WORD_COLOUR] = TOKEN_COLOUR,
-        [WORD_TEXTURE] = TOKEN_TEXTURE, [WORD_ARRAY] = TOKEN_ARRAY,       [WORD_FUNCTION] = TOKEN_FUNCTION,
-        [WORD_BUILTIN] = TOKEN_BUILTIN, [WORD_CONSTANT] = TOKEN_CONSTANT, [WORD_DIRECTIVE] = TOKEN_DIRECTIVE_WORD,
-    };
-    return symbol == W_deprecated ? TOKEN_DEPRECATED : tokens[word_class(symbol)];
-}
-
-static const Directive *find_directive(int token)
-{
-    for (size_t i = 0; i < RT_COUNT_OF(directives); i++) {
-        if (directives[i].token == token) {
-            return &directives[i];
-        }
-    }
-    return NULL;
-}
-
-bool grammar_is_directive(int token)
-{
-    return token >= TOKEN_HASH_DECLARE && token <= TOKEN_HASH_WRITE;
-}
-
-DirectiveRole grammar_role(int token)
-{
-    return grammar_is_directive(token) ? find_directive(token)->role : ROLE_NONE;
-}
-
-bool grammar_is_name(int token)
-{
-    return token == TOKEN_NAME;
-}
-
-Symbol grammar_directive_word(int token)
-{
-    return (Symbol)find_directive(token)->word;
-}
 
 void grammar_fault(GrammarState *state, DiagCode code, Span span, const char *format, ...)
 {
@@ -105,67 +25,6 @@ void grammar_fault(GrammarState *state, DiagCode code, Span span, const char *fo
     if (diag_is_full(state->context->diags)) {
         state->ended = true;
     }
-}
-
-int grammar_directive_token(GrammarState *state, const char *word, size_t length, Span span)
-{
-    Symbol symbol = intern_find(state->context->names, word, length);
-    for (size_t i = 0; i < RT_COUNT_OF(directives); i++) {
-        if (symbol == (Symbol)directives[i].word) {
-            return directives[i].token;
-        }
-    }
-    if (grammar_scan_defers(state)) {
-        return TOKEN_INVALID;
-    }
-    if (length == 0) {
-        grammar_fault(state, DIAG_E0105, span, "the name of a directive must follow `#`");
-        return TOKEN_INVALID;
-    }
-    Suggest suggest;
-    bool stands_for_it = false;
-    const char *foreign = grammar_foreign_directive(word, length, &stands_for_it);
-    suggest_begin(&suggest, word);
-    for (size_t i = 0; i < RT_COUNT_OF(directives) && foreign == NULL; i++) {
-        suggest_offer(&suggest, intern_get(state->context->names, (Symbol)directives[i].word));
-    }
-    suggest.best = foreign != NULL ? foreign : suggest.best;
-    size_t kept = state->context->diags->count;
-    grammar_fault(state, DIAG_E0105, span, "`#%.40s` is not a directive", word);
-    bool is_apart = span.end - span.begin > length + 1;
-    if (suggest.best == NULL || (is_apart && foreign == NULL && suggest.best_cost > 0)) {
-        if (is_apart && state->context->diags->count > kept) {
-            diag_suggest(state->context->diags, "a comment begins with `//`");
-        }
-        state->unknown_directives++;
-        return TOKEN_INVALID;
-    }
-    if (state->context->diags->count > kept) {
-        diag_suggest(state->context->diags, "did you mean `#%s`?", suggest.best);
-        diag_replace(state->context->diags, span, "#%s", suggest.best);
-    }
-    // Reading continues as if the suggestion stood there, unless it is far for such a short word.
-    if (foreign != NULL ? !stands_for_it : suggest.best_cost > GUESS_COST && length <= GUESS_LENGTH) {
-        state->unknown_directives++;
-        return TOKEN_INVALID;
-    }
-    int meant = grammar_directive_token(state, suggest.best, strlen(suggest.best), span);
-    DirectiveRole role = grammar_role(meant);
-    bool belongs = role == ROLE_SIMPLE || role == ROLE_OPENS || state->openers.count > 0;
-    return belongs ? meant : TOKEN_INVALID;
-}
-
-bool grammar_is_idle_hash(GrammarState *state, Span span)
-{
-    const Opener *open = grammar_innermost(state);
-    bool is_idle = state->feed == NULL && state->source != NULL && open != NULL && open->kind == '{';
-    for (size_t i = 0; i < state->openers.count; i++) { // but not among the elements of an array
-        is_idle = is_idle && (state->openers.items[i].kind != '{' || state->openers.items[i].word != SYMBOL_NONE);
-    }
-    if (is_idle) {
-        diag_report(state->context->diags, DIAG_W0102, span, "a `#` without the name of a directive means nothing");
-    }
-    return is_idle;
 }
 
 // ---- What is open.
@@ -267,7 +126,7 @@ void grammar_track(GrammarState *state, const Token *token)
     }
 }
 
-// ---- Delivery, and continuing after a fault.
+// ---- Delivery.
 
 // Old scenes write `declare` and `default` without `#`; POV-Ray warns and continues, and so do we.
 static void supply_hash(GrammarState *state, Token *token, int before)
@@ -311,125 +170,6 @@ void grammar_read_token(GrammarState *state, Token *token)
 void grammar_hold_token(GrammarState *state, Token token)
 {
     state->held[state->held_count++] = token; // the last one held is the first to be delivered
-}
-
-// In the parentheses after a directive: to their end, or to what cannot stand in them.
-static void skip_header(GrammarState *state, size_t level, Token token)
-{
-    for (Token last = {0};; last = token, grammar_read_token(state, &token)) {
-        if (token.kind == TOKEN_END_OF_FILE || token.kind == '{' || token.kind == '}' || token.kind == ';' ||
-            grammar_is_directive(token.kind)) {
-            grammar_hold_token(state, token);
-            if (token.kind == '{' && (grammar_is_reserved(last.kind) || last.kind == TOKEN_NAME)) {
-                grammar_hold_token(state, last); // the block is whole
-            }
-            state->openers.count = level;
-            state->openers.items[level - 1].header_done = true;
-            return;
-        }
-        grammar_track(state, &token);
-        if (state->openers.count == level && state->openers.items[level - 1].header_done) {
-            return;
-        }
-    }
-}
-
-// Whether skipping among items ends before this token, which is then delivered.
-static bool ends_skipping(const GrammarState *state, size_t level, const Token *token)
-{
-    DirectiveRole role = grammar_role(token->kind);
-    const Opener *openers = state->openers.items;
-    size_t count = state->openers.count;
-    if (token->kind == TOKEN_END_OF_FILE) {
-        return true;
-    }
-    if (count <= level) {
-        return role != ROLE_NONE || (token->kind == '}' && level > 0 && openers[level - 1].kind == '{');
-    }
-    // An open brace among what is skipped does not outlive the branch that it stands in.
-    bool ends_branch = role == ROLE_MIDDLE || role == ROLE_ELSE || role == ROLE_END;
-    return ends_branch && level > 0 && grammar_is_directive(openers[level - 1].kind) &&
-           !grammar_is_directive(openers[count - 1].kind);
-}
-
-// A `;` right after what was skipped ends the same statement.
-static void skip_semicolon(GrammarState *state)
-{
-    Token token;
-    grammar_read_token(state, &token);
-    if (token.kind != ';') {
-        grammar_hold_token(state, token);
-    }
-}
-
-// Those of a case that belongs to nothing.
-static void skip_parentheses(GrammarState *state, DirectiveRole role)
-{
-    Token token;
-    if (role != ROLE_MIDDLE) {
-        return;
-    }
-    grammar_read_token(state, &token);
-    if (token.kind != '(') {
-        grammar_hold_token(state, token);
-        return;
-    }
-    for (unsigned depth = 1; depth > 0;) {
-        grammar_read_token(state, &token);
-        depth += token.kind == '(';
-        depth -= token.kind == ')';
-        if (token.kind == TOKEN_END_OF_FILE || token.kind == ';' || grammar_is_directive(token.kind)) {
-            grammar_hold_token(state, token);
-            return;
-        }
-    }
-}
-
-// Among items: to the `}` that ends the block, up to a directive, or past a `;` or a whole block.
-static void skip_items(GrammarState *state, size_t level, Token token)
-{
-    bool was_among_items = state->openers.count == level;
-    state->openers.count = level;
-    DirectiveRole role = grammar_role(token.kind);
-    bool inside_value = state->past_directive;
-    unsigned semicolons = inside_value && role == ROLE_SIMPLE ? 2 : 1;
-    if (was_among_items && role != ROLE_NONE && !inside_value && role != ROLE_SIMPLE && role != ROLE_OPENS) {
-        skip_parentheses(state, role);
-        return; // it belongs to nothing
-    }
-    bool passes = inside_value;
-    while (passes || !ends_skipping(state, level, &token)) {
-        passes = false;
-        bool among_items = state->openers.count <= level;
-        grammar_track(state, &token);
-        if (token.kind == ';' && among_items && --semicolons == 0) {
-            return;
-        }
-        if (token.kind == '}' && state->openers.count <= level) {
-            skip_semicolon(state);
-            return;
-        }
-        grammar_read_token(state, &token);
-    }
-    state->openers.count = level;
-    grammar_hold_token(state, token);
-}
-
-static void skip(GrammarState *state)
-{
-    state->skips = false;
-    size_t level = state->openers.count;
-    while (level > 0 && (state->openers.items[level - 1].kind == '(' || state->openers.items[level - 1].kind == '[')) {
-        level--;
-    }
-    const Opener *opener = level > 0 ? &state->openers.items[level - 1] : NULL;
-    if (opener != NULL && grammar_is_directive(opener->kind) && !opener->header_done) {
-        skip_header(state, level, state->current);
-    } else {
-        skip_items(state, level, state->current);
-    }
-    state->current.kind = TOKEN_RESYNC;
-    state->current.span = (Span){state->current.span.end, state->current.span.end};
 }
 
 void grammar_next_token(GrammarState *state)
@@ -616,7 +356,7 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state)
         return start;
     }
     if (RT_UNLIKELY(state->skips)) {
-        skip(state);
+        grammar_skip(state);
     } else {
         next_token(state);
     }

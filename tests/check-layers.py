@@ -50,7 +50,7 @@ def files_of(module, modules, endings):
 
 
 def includes_of(module, modules):
-    for path in files_of(module, modules, (".c", ".h", ".cpp", ".y", ".l", ".def")):
+    for path in files_of(module, modules, (".c", ".h", ".inc", ".cpp", ".y", ".l", ".def")):
         for number, line in enumerate(open(path, encoding="utf-8"), 1):
             match = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
             if match:

@@ -84,6 +84,7 @@ unit_programs = \
   tests/unit/test_light_grid \
   tests/unit/test_ball_view \
   tests/unit/test_tiles \
+  tests/unit/test_tiles_light \
   tests/unit/test_partial \
   tests/unit/test_race \
   tests/sampling/test_sampling \
@@ -225,6 +226,8 @@ tests_unit_test_render_sampler_SOURCES = %D%/unit/test_render_sampler.c
 tests_unit_test_render_sampler_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_tiles_SOURCES = %D%/unit/test_tiles.c $(trace_headers)
 tests_unit_test_tiles_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_tiles_light_SOURCES = %D%/unit/test_tiles_light.c $(trace_headers)
+tests_unit_test_tiles_light_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_partial_SOURCES = %D%/unit/test_partial.c $(unit_headers)
 tests_unit_test_partial_LDADD = libapi.la
 tests_unit_test_race_SOURCES = %D%/unit/test_race.c src/check/race_ratio.c src/check/race_settings.c $(unit_headers)

@@ -39,13 +39,6 @@ Transform transform_compose(Transform first, Transform second);
 // False when the linear part is singular or its inverse is not finite; *inverse is then unchanged.
 bool transform_invert(const Transform *transform, Transform *inverse);
 
-static inline Vec3 rows_direction(const double (*m)[3], Vec3 direction)
-{
-    return vec3(direction.x * m[0][0] + direction.y * m[1][0] + direction.z * m[2][0],
-                direction.x * m[0][1] + direction.y * m[1][1] + direction.z * m[2][1],
-                direction.x * m[0][2] + direction.y * m[1][2] + direction.z * m[2][2]);
-}
-
 static inline Vec3 transform_direction(const Transform *transform, Vec3 direction)
 {
     return rows_direction(transform->m, direction);
@@ -60,13 +53,6 @@ static inline Vec3 transform_point(const Transform *transform, Vec3 point)
 {
     const double(*m)[3] = transform->m;
     return vec3_add(transform_direction(transform, point), vec3(m[3][0], m[3][1], m[3][2]));
-}
-
-static inline Vec3 rows_normal(const double (*m)[3], Vec3 normal)
-{
-    return vec3(normal.x * m[0][0] + normal.y * m[0][1] + normal.z * m[0][2],
-                normal.x * m[1][0] + normal.y * m[1][1] + normal.z * m[1][2],
-                normal.x * m[2][0] + normal.y * m[2][1] + normal.z * m[2][2]);
 }
 
 // The image of a normal of a surface: `inverse` is the inverse of the surface's transform. Not normalised.

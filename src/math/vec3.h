@@ -15,19 +15,12 @@ typedef struct Vec3 {
     double x, y, z;
 } Vec3;
 
+#include "math/lane_double.h"
+#include "math/vec3.inc"
+
 static inline Vec3 vec3(double x, double y, double z)
 {
     return (Vec3){x, y, z};
-}
-
-static inline Vec3 vec3_add(Vec3 a, Vec3 b)
-{
-    return vec3(a.x + b.x, a.y + b.y, a.z + b.z);
-}
-
-static inline Vec3 vec3_sub(Vec3 a, Vec3 b)
-{
-    return vec3(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 static inline Vec3 vec3_mul(Vec3 a, Vec3 b)
@@ -35,52 +28,14 @@ static inline Vec3 vec3_mul(Vec3 a, Vec3 b)
     return vec3(a.x * b.x, a.y * b.y, a.z * b.z);
 }
 
-static inline Vec3 vec3_scale(double s, Vec3 a)
-{
-    return vec3(s * a.x, s * a.y, s * a.z);
-}
-
-// a + s b
-static inline Vec3 vec3_add_scaled(Vec3 a, double s, Vec3 b)
-{
-    return vec3(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
-}
-
 static inline Vec3 vec3_neg(Vec3 a)
 {
     return vec3(-a.x, -a.y, -a.z);
 }
 
-static inline double vec3_dot(Vec3 a, Vec3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
 {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-
-static inline double vec3_length_squared(Vec3 a)
-{
-    return vec3_dot(a, a);
-}
-
-static inline double vec3_length(Vec3 a)
-{
-    return sqrt(vec3_dot(a, a));
-}
-
-// The unit vector along a, which must not be zero and whose squares must neither over- nor underflow.
-static inline Vec3 vec3_normalize(Vec3 a)
-{
-    return vec3_scale(1.0 / vec3_length(a), a);
-}
-
-// The mirror image of direction d at a surface with unit normal n: d - 2 (d·n) n.
-static inline Vec3 vec3_reflect(Vec3 d, Vec3 n)
-{
-    return vec3_add_scaled(d, -2.0 * vec3_dot(d, n), n);
 }
 
 static inline double vec3_max_abs(Vec3 a)

@@ -13,26 +13,8 @@
 
 enum { CONE_ROUND, CONE_BASE, CONE_CAP };
 
-// a t² + 2 b t + c <= 0 is inside of the cone or of its mirror image beyond the tip.
-typedef struct ConeRoots {
-    double a, b, c, discriminant;
-    double q; // growth of the radius along the ray
-} ConeRoots;
-
-RT_ALWAYS_INLINE ConeRoots cone_roots(double ratio, Vec3 o, Vec3 d)
-{
-    double p = 1.0 + (ratio - 1.0) * o.z;
-    double q = (ratio - 1.0) * d.z;
-    double cross = o.x * d.y - o.y * d.x;
-    double wx = p * d.x - q * o.x, wy = p * d.y - q * o.y;
-    return (ConeRoots){
-        .a = d.x * d.x + d.y * d.y - q * q,
-        .b = o.x * d.x + o.y * d.y - p * q,
-        .c = o.x * o.x + o.y * o.y - p * p,
-        .discriminant = wx * wx + wy * wy - cross * cross,
-        .q = q,
-    };
-}
+#include "math/lane_double.h"
+#include "trace/cone.inc"
 
 // The line inside the round side, on the tip's own side only where the discs' planes decide. A line steeper than the
 // side (a < 0) is inside of both images in turn and never leaves the one that widens.

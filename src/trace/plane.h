@@ -20,23 +20,8 @@ typedef struct PlaneShape {
     double distance;
 } PlaneShape;
 
-// The parameter at which the ray crosses the plane; not positive, infinite or NaN when it does not.
-RT_ALWAYS_INLINE double plane_root(const PlaneShape *plane, Vec3 origin, Vec3 direction)
-{
-    return (plane->distance - vec3_dot(plane->normal, origin)) / vec3_dot(plane->normal, direction);
-}
-
-// How far the parameter at which a plane is crossed may be off by rounding, that of the plane's own place with it. A
-// normal is known to u of its length, but for components that are 0. Infinite along the plane.
-RT_ALWAYS_INLINE double plane_crossing_error(const PlaneShape *plane, Ray ray, double t)
-{
-    Vec3 n = plane->normal, o = ray.origin, d = ray.direction;
-    double x = n.x != 0.0 ? fabs(o.x) + fabs(t * d.x) : 0.0;
-    double y = n.y != 0.0 ? fabs(o.y) + fabs(t * d.y) : 0.0;
-    double z = n.z != 0.0 ? fabs(o.z) + fabs(t * d.z) : 0.0;
-    double reach = sqrt(x * x + y * y + z * z) + fabs(plane->distance);
-    return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, d));
-}
+#include "math/lane_double.h"
+#include "trace/plane.inc"
 
 // True when two planes are the same surface, whatever side of it they call their inside.
 RT_ALWAYS_INLINE bool plane_equal(const PlaneShape *a, const PlaneShape *b)

@@ -1,6 +1,6 @@
 // A plane against the rays of a tile, and against those from its surfaces to a light: part of spheres_kernel.c.
 //
-// Operations and their order are those of plane_root, plane_crossing_error and root_span.
+// Roots and their errors are those of plane.h, by the same text (trace/plane.inc).
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_PLANE_TILE_H
@@ -9,6 +9,10 @@
 #include "trace/plane.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
+#include "trace/vec3s.h"
+
+#include "trace/lane_doubles.h"
+#include "trace/plane.inc"
 
 static uint64_t plane_closest(const PlaneShape *plane, ShapeId shape, const SphereTile *tile, TileHits *hits)
 {
@@ -17,9 +21,7 @@ static uint64_t plane_closest(const PlaneShape *plane, ShapeId shape, const Sphe
     uint64_t tied = 0;
     for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
         _Alignas(64) double t[DOUBLES];
-        Doubles along = n.x * doubles_load(&tile->direction[0][i]) + n.y * doubles_load(&tile->direction[1][i]) +
-                        n.z * doubles_load(&tile->direction[2][i]);
-        Doubles root = away / along;
+        Doubles along = vec3s_dot(vec3s_splat(n), vec3s_load(tile->direction, i)), root = away / along;
         Doubles before = doubles_load(&hits->t[i]);
         unsigned ahead = doubles_gt(root, doubles_splat(0.0));
         unsigned nearer = ahead & doubles_gt(before, root);
@@ -37,29 +39,20 @@ static uint64_t plane_closest(const PlaneShape *plane, ShapeId shape, const Sphe
     return tied & hits->met;
 }
 
-// |o| + |t d| of an axis, as plane_crossing_error has it.
-RT_ALWAYS_INLINE Doubles plane_reach(double normal, double origin, Doubles t, const double *direction)
-{
-    return normal != 0.0 ? doubles_abs(doubles_splat(origin)) + doubles_abs(t * doubles_load(direction))
-                         : doubles_splat(0.0);
-}
-
 static uint64_t plane_foremost(const PlaneShape *plane, ShapeId shape, uint32_t order, const SphereTile *tile,
                                TileForemost *all)
 {
-    Vec3 n = plane->normal, o = tile->origin;
-    double away = plane->distance - vec3_dot(n, o);
+    Vec3 n = plane->normal;
+    const Vec3s origin = vec3s_splat(tile->origin);
+    double away = plane->distance - vec3_dot(n, tile->origin);
     TileHits *hits = all->hits;
     const Doubles zero = doubles_splat(0.0), far = doubles_splat((double)INFINITY);
     uint64_t left = hits->met;
     for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
         _Alignas(64) double t[DOUBLES];
-        const double *x = &tile->direction[0][i], *y = &tile->direction[1][i], *z = &tile->direction[2][i];
-        Doubles along = n.x * doubles_load(x) + n.y * doubles_load(y) + n.z * doubles_load(z), root = away / along;
-        Doubles rx = plane_reach(n.x, o.x, root, x), ry = plane_reach(n.y, o.y, root, y),
-                rz = plane_reach(n.z, o.z, root, z);
-        Doubles reach = doubles_sqrt(rx * rx + ry * ry + rz * rz) + fabs(plane->distance);
-        Doubles error = TRANSFORM_ROUNDING * reach / doubles_abs(along), to = root + error;
+        Vec3s direction = vec3s_load(tile->direction, i);
+        Doubles along = vec3s_dot(vec3s_splat(n), direction), root = away / along;
+        Doubles error = planes_crossing_error(plane, origin, direction, root), to = root + error;
         unsigned free = ~hits->met >> i & ((1u << DOUBLES) - 1), ahead = free & doubles_gt(root, zero);
         unsigned plain = ahead & doubles_gt(error, zero) & doubles_gt(far, to);
         left |= (uint64_t)(ahead & ~plain) << i;
@@ -81,14 +74,9 @@ static uint64_t plane_foremost(const PlaneShape *plane, ShapeId shape, uint32_t 
 static uint64_t plane_occluded(const PlaneShape *plane, ShapeId shape, const TileSurfaces *from,
                                const SurfaceRays *rays)
 {
-    Vec3 n = plane->normal;
     uint64_t occluded = 0, own = 0;
     for (int i = 0; i < from->count; i += DOUBLES) {
-        Doubles height = n.x * doubles_load(&from->point[0][i]) + n.y * doubles_load(&from->point[1][i]) +
-                         n.z * doubles_load(&from->point[2][i]);
-        Doubles along = n.x * doubles_load(&rays->towards[0][i]) + n.y * doubles_load(&rays->towards[1][i]) +
-                        n.z * doubles_load(&rays->towards[2][i]);
-        Doubles root = (plane->distance - height) / along;
+        Doubles root = planes_root(plane, vec3s_load(from->point, i), vec3s_load(rays->towards, i));
         occluded |= (uint64_t)(doubles_gt(root, doubles_splat(0.0)) &
                                doubles_gt(doubles_load(&rays->distance[i]), root))
                     << i;

@@ -105,7 +105,7 @@ double primitive_crossing_error(const PreparedPrimitive *primitive, const Ray *r
 {
     if (primitive->kind == PRIMITIVE_PLANE) {
         PlaneShape plane = {primitive->data[0], primitive->data[1].x};
-        return plane_crossing_error(&plane, *ray, t);
+        return plane_crossing_error(&plane, ray->origin, ray->direction, t);
     }
     return plane_error(primitive, ray, object, t,
                        prepared_classes[primitive->kind].gradient(primitive, ray_at(*object, t), side));

@@ -1,8 +1,8 @@
 // Some rays against a primitive of a kind that has a test in lanes, in the primitive's own space: part of
 // spheres_kernel.c.
 //
-// Operations and their order are those of primitive_ray and of sphere_test, or of cone_interval, box_interval and
-// flat_root, so the bits are the same. Whatever takes a way that ordinary rays do not take (along a face, grazing,
+// Roots are those of single rays, bit for bit: by the same text (trace/sphere.inc, trace/cone.inc) or, where a single ray
+// branches, by the same operations in their order (box_interval, cone_interval and flat_root). Whatever takes a way that ordinary rays do not take (along a face, grazing,
 // through a tip) is not certain: it is asked by itself.
 //
 // SPDX-License-Identifier: MIT
@@ -15,61 +15,10 @@
 #include "trace/curve_lanes.h"
 #include "trace/shapes.h"
 #include "trace/simd.h"
+#include "trace/sphere_rays.h"
 
-// A linear map for each ray, or the same for all.
-typedef struct Linears {
-    Doubles m[3][3];
-} Linears;
-
-RT_ALWAYS_INLINE void linears_splat(const Linear *linear, Linears *all)
-{
-#pragma GCC unroll 3
-    for (int row = 0; row < 3; row++) {
-#pragma GCC unroll 3
-        for (int column = 0; column < 3; column++) {
-            all->m[row][column] = doubles_splat(linear->m[row][column]);
-        }
-    }
-}
-
-// linear_direction of each.
-RT_ALWAYS_INLINE void linears_direction(const Linears *linear, const Doubles v[3], Doubles image[3])
-{
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; i++) {
-        image[i] = v[0] * linear->m[0][i] + v[1] * linear->m[1][i] + v[2] * linear->m[2][i];
-    }
-}
-
-// linear_normal of each.
-RT_ALWAYS_INLINE void linears_normal(const Linears *inverse, const Doubles v[3], Doubles image[3])
-{
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; i++) {
-        image[i] = v[0] * inverse->m[i][0] + v[1] * inverse->m[i][1] + v[2] * inverse->m[i][2];
-    }
-}
-
-RT_ALWAYS_INLINE Doubles lanes_dot(const Doubles a[3], const Doubles b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-RT_ALWAYS_INLINE void lanes_load(const double from[3][TILE_RAYS], unsigned at, Doubles to[3])
-{
-#pragma GCC unroll 3
-    for (int axis = 0; axis < 3; axis++) {
-        to[axis] = doubles_load(&from[axis][at]);
-    }
-}
-
-RT_ALWAYS_INLINE void lanes_sub(const Doubles a[3], const Doubles b[3], Doubles difference[3])
-{
-#pragma GCC unroll 3
-    for (int axis = 0; axis < 3; axis++) {
-        difference[axis] = a[axis] - b[axis];
-    }
-}
+#include "trace/lane_doubles.h"
+#include "trace/cone.inc"
 
 // ---- errors
 
@@ -119,11 +68,16 @@ typedef struct PrimitiveLanes {
     Doubles bound;     // of how far that and its error reach
 } PrimitiveLanes;
 
+// Some rays in the space of a primitive, and their directions in the scene.
+typedef struct RayLanes {
+    Vec3s f, d, world;
+} RayLanes;
+
 // A solid and what is the same for all rays.
 typedef struct LanePrimitive {
     const PreparedPrimitive *solid;
     Linears to_object;
-    Doubles centre[3];
+    Vec3s centre;
     LaneSlack slack;
     Vec3 normal; // of a disc or triangle
 } LanePrimitive;
@@ -133,37 +87,28 @@ RT_ALWAYS_INLINE void lane_primitive_set(LanePrimitive *own, const PreparedPrimi
 {
     own->solid = primitive;
     own->slack = lane_slack(primitive, far);
-    own->centre[0] = doubles_splat(primitive->centre.x);
-    own->centre[1] = doubles_splat(primitive->centre.y);
-    own->centre[2] = doubles_splat(primitive->centre.z);
-    linears_splat(&primitive->to_object, &own->to_object);
+    own->centre = vec3s_splat(primitive->centre);
+    own->to_object = linears_splat(&primitive->to_object);
     if (primitive_is_flat(primitive)) {
         own->normal = vec3_normalize(linear_normal(&primitive->to_object, vec3(0.0, 0.0, 1.0)));
     }
 }
 
 // primitive_ray of some rays.
-RT_ALWAYS_INLINE void lane_primitive_ray(const LanePrimitive *own, const double origin[3][TILE_RAYS],
-                                         const double direction[3][TILE_RAYS], unsigned at, Doubles f[3], Doubles d[3])
+RT_ALWAYS_INLINE RayLanes lane_primitive_ray(const LanePrimitive *own, const double origin[3][TILE_RAYS],
+                                             const double direction[3][TILE_RAYS], unsigned at)
 {
-    Doubles from[3], along[3];
-    lanes_load(origin, at, from);
-    lanes_load(direction, at, along);
-    lanes_sub(from, own->centre, from);
-    linears_direction(&own->to_object, from, f);
-    linears_direction(&own->to_object, along, d);
+    Vec3s d = vec3s_load(direction, at), f = vec3s_sub(vec3s_load(origin, at), own->centre);
+    return (RayLanes){linears_direction(&own->to_object, f), linears_direction(&own->to_object, d), d};
 }
 
-// False when all of `asked` are missed; nothing else is set then. `f` and `d` are in the ball's space.
-RT_ALWAYS_INLINE bool ball_lanes(const Doubles f[3], const Doubles d[3], const LaneSlack *slack, unsigned asked,
-                                 PrimitiveLanes *lanes)
+// False when all of `asked` are missed; nothing else is set then.
+RT_ALWAYS_INLINE bool ball_lanes(const LanePrimitive *own, const RayLanes *rays, unsigned asked, PrimitiveLanes *lanes)
 {
-    Doubles inverse_square = 1.0 / lanes_dot(d, d);
-    const Doubles direction_over_length2[3] = {inverse_square * d[0], inverse_square * d[1], inverse_square * d[2]};
-    Doubles t_middle = -lanes_dot(f, direction_over_length2);
-    const Doubles l[3] = {f[0] + t_middle * d[0], f[1] + t_middle * d[1], f[2] + t_middle * d[2]};
-    Doubles discriminant = 1.0 - lanes_dot(l, l);
-    Doubles f_squared = lanes_dot(f, f);
+    const LaneSlack *slack = &own->slack;
+    SphereRays ray = sphere_rays_make(rays->f, rays->d);
+    Doubles t_middle, discriminant = spheres_discriminant(&ray, rays->f, doubles_splat(1.0), &t_middle);
+    Doubles f_squared = vec3s_length_squared(rays->f);
     Doubles sum = f_squared + 1.0, c = f_squared - 1.0, uncertainty = SPHERE_UNCERTAINTY * sum;
     unsigned outer = doubles_ge(c, uncertainty);
     lanes->possible = asked & doubles_ge(discriminant, -SPHERE_ROUNDING * sum) &
@@ -173,10 +118,9 @@ RT_ALWAYS_INLINE bool ball_lanes(const Doubles f[3], const Doubles d[3], const L
     }
     lanes->certain = doubles_ge(discriminant, uncertainty) & doubles_ge(doubles_abs(c), uncertainty);
     lanes->leaves = ~doubles_ge(c, doubles_splat(0.0));
-    Doubles half = doubles_sqrt(discriminant * inverse_square), far_side = doubles_abs(t_middle) + half;
-    Doubles near_side = doubles_abs(c) * inverse_square / far_side;
-    Doubles root = doubles_choose((c > 0.0) | (t_middle < 0.0), near_side, far_side);
-    Doubles error = (slack->fixed + slack->slope * root) * inverse_square / half; // |n·d| is half an interval times |d|²
+    Doubles half = doubles_sqrt(discriminant * ray.inverse_square);
+    Doubles root = spheres_root(t_middle, discriminant, c, ray.inverse_square);
+    Doubles error = (slack->fixed + slack->slope * root) * ray.inverse_square / half; // |n·d| is half an interval times |d|²
     lanes->root = root;
     lanes->side = (DoublesMask){0};
     lanes->bound = doubles_min(2.0 * half, error) + 0x1p-10 * root;
@@ -239,121 +183,98 @@ RT_ALWAYS_INLINE bool interval_lanes_first(const LanePrimitive *own, const Inter
     return lanes->possible;
 }
 
-RT_ALWAYS_INLINE bool box_lanes(const LanePrimitive *own, const Doubles f[3], const Doubles d[3], unsigned asked,
-                                PrimitiveLanes *lanes)
+RT_ALWAYS_INLINE bool box_lanes(const LanePrimitive *own, const RayLanes *rays, unsigned asked, PrimitiveLanes *lanes)
 {
-    const double *low = &own->solid->data[0].x, *high = &own->solid->data[1].x;
+    const Vec3 low = own->solid->data[0], high = own->solid->data[1];
+    const Vec3s f = rays->f, d = rays->d;
     IntervalLanes interval, slab;
     DoublesMask certain = ~(DoublesMask){0};
-    slab_lanes(f[0], d[0], low[0], high[0], 0, &interval, &certain);
-    slab_lanes(f[1], d[1], low[1], high[1], 2, &slab, &certain);
+    slab_lanes(f.x, d.x, low.x, high.x, 0, &interval, &certain);
+    slab_lanes(f.y, d.y, low.y, high.y, 2, &slab, &certain);
     interval_lanes_meet(&interval, &slab);
-    slab_lanes(f[2], d[2], low[2], high[2], 4, &slab, &certain);
+    slab_lanes(f.z, d.z, low.z, high.z, 4, &slab, &certain);
     interval_lanes_meet(&interval, &slab);
     lanes->certain = doubles_mask_bits(certain);
     return interval_lanes_first(own, &interval, asked, lanes);
 }
 
 // cone_roots and cone_interval. Lines along the side, or next to grazing it, are not certain.
-RT_ALWAYS_INLINE bool cone_lanes(const LanePrimitive *own, const Doubles f[3], const Doubles d[3], unsigned asked,
-                                 PrimitiveLanes *lanes)
+RT_ALWAYS_INLINE bool cone_lanes(const LanePrimitive *own, const RayLanes *rays, unsigned asked, PrimitiveLanes *lanes)
 {
     const Doubles zero = doubles_splat(0.0), far = doubles_splat((double)INFINITY);
-    double ratio = own->solid->data[0].x;
-    Doubles p = 1.0 + (ratio - 1.0) * f[2], q = (ratio - 1.0) * d[2];
-    Doubles cross = f[0] * d[1] - f[1] * d[0];
-    Doubles wx = p * d[0] - q * f[0], wy = p * d[1] - q * f[1], whole = wx * wx + wy * wy;
-    Doubles discriminant = whole - cross * cross;
-    Doubles a = d[0] * d[0] + d[1] * d[1] - q * q;
-    if (!(asked & ~(doubles_gt(a, zero) & doubles_gt(zero, discriminant)))) {
+    const ConesRoots r = cones_roots(own->solid->data[0].x, rays->f, rays->d);
+    const Doubles a = r.a, b = r.b;
+    if (!(asked & ~(doubles_gt(a, zero) & doubles_gt(zero, r.discriminant)))) {
         return false;
     }
-    Doubles b = f[0] * d[0] + f[1] * d[1] - p * q, c = f[0] * f[0] + f[1] * f[1] - p * p;
-    Doubles along = doubles_sqrt(discriminant);
+    Doubles along = doubles_sqrt(r.discriminant);
     Doubles sum = -(b + (Doubles)((DoublesMask)along | ((DoublesMask)b & INT64_MIN)));
-    Doubles first = sum / a, second = c / sum;
-    DoublesMask ordered = first < second, narrows = a > 0.0, widens = ~narrows & (q > 0.0);
+    Doubles first = sum / a, second = r.c / sum;
+    DoublesMask ordered = first < second, narrows = a > 0.0, widens = ~narrows & (r.q > 0.0);
     Doubles less = doubles_choose(ordered, first, second), greater = doubles_choose(ordered, second, first);
     IntervalLanes interval, slab;
     interval.enter = doubles_choose(narrows, less, doubles_choose(widens, greater, -far));
     interval.leave = doubles_choose(narrows, greater, doubles_choose(widens, far, less));
     interval.enter_along = interval.leave_along = along;
     interval.enter_side = interval.leave_side = (DoublesMask){0} + CONE_ROUND;
-    DoublesMask is_clear = (discriminant > 0x1p-20 * whole) | (narrows & (discriminant < 0.0));
+    DoublesMask is_clear = (r.discriminant > 0x1p-20 * r.whole) | (narrows & (r.discriminant < 0.0));
     DoublesMask certain = is_clear & (a != zero) & (sum != zero);
-    slab_lanes(f[2], d[2], 0.0, 1.0, CONE_BASE, &slab, &certain);
+    slab_lanes(rays->f.z, rays->d.z, 0.0, 1.0, CONE_BASE, &slab, &certain);
     interval_lanes_meet(&interval, &slab);
     lanes->certain = doubles_mask_bits(certain);
     return interval_lanes_first(own, &interval, asked, lanes);
 }
 
 // smooth_normal of each, from the normals at the corners.
-RT_ALWAYS_INLINE void smooth_lanes(const Doubles corners[3][3], Doubles x, Doubles y, Doubles normal[3])
+RT_ALWAYS_INLINE Vec3s smooth_lanes(const Vec3s corners[3], Doubles x, Doubles y)
 {
-    const Doubles zero = doubles_splat(0.0);
     Doubles first = 1.0 - x - y;
-    DoublesMask cancel = ~(DoublesMask){0};
-#pragma GCC unroll 3
-    for (int axis = 0; axis < 3; axis++) {
-        normal[axis] = first * corners[0][axis] + x * corners[1][axis] + y * corners[2][axis];
-        cancel &= normal[axis] == zero;
-    }
-#pragma GCC unroll 3
-    for (int axis = 0; axis < 3; axis++) {
-        normal[axis] = doubles_choose(cancel, corners[0][axis], normal[axis]);
-    }
+    Vec3s normal = vec3s_add(vec3s_add(vec3s_scale(first, corners[0]), vec3s_scale(x, corners[1])),
+                             vec3s_scale(y, corners[2]));
+    DoublesMask cancel = (normal.x == 0.0) & (normal.y == 0.0) & (normal.z == 0.0);
+    return vec3s_choose(cancel, corners[0], normal);
 }
 
 // Whether rays come from below where they meet a smooth triangle.
-RT_ALWAYS_INLINE unsigned smooth_lanes_leave(const LanePrimitive *own, Doubles x, Doubles y, const Doubles world[3])
+RT_ALWAYS_INLINE unsigned smooth_lanes_leave(const LanePrimitive *own, Doubles x, Doubles y, Vec3s world)
 {
-    Doubles corners[3][3], object[3], normal[3];
-#pragma GCC unroll 3
-    for (int corner = 0; corner < 3; corner++) {
-        Vec3 n = own->solid->data[corner];
-        corners[corner][0] = doubles_splat(n.x);
-        corners[corner][1] = doubles_splat(n.y);
-        corners[corner][2] = doubles_splat(n.z);
-    }
-    smooth_lanes(corners, x, y, object);
-    linears_normal(&own->to_object, object, normal);
-    Doubles shrink = 1.0 / doubles_sqrt(lanes_dot(normal, normal));
-    for (int axis = 0; axis < 3; axis++) {
-        normal[axis] = shrink * normal[axis];
-    }
-    return doubles_gt(lanes_dot(normal, world), doubles_splat(0.0));
+    const Vec3 *data = own->solid->data;
+    const Vec3s corners[3] = {vec3s_splat(data[0]), vec3s_splat(data[1]), vec3s_splat(data[2])};
+    Vec3s normal = vec3s_normalize(linears_normal(&own->to_object, smooth_lanes(corners, x, y)));
+    return doubles_gt(vec3s_dot(normal, world), doubles_splat(0.0));
 }
 
 // flat_root, with disc_has or triangle_has, and which side of it the ray comes from.
-RT_ALWAYS_INLINE bool flat_lanes(const LanePrimitive *own, PrimitiveKind kind, const Doubles f[3], const Doubles d[3],
-                                 const Doubles world[3], unsigned asked, PrimitiveLanes *lanes)
+RT_ALWAYS_INLINE bool flat_lanes(const LanePrimitive *own, PrimitiveKind kind, const RayLanes *rays, unsigned asked,
+                                 PrimitiveLanes *lanes)
 {
+    const Vec3s f = rays->f, d = rays->d;
     const Doubles zero = doubles_splat(0.0);
     const double hole = own->solid->data[0].x;
-    Doubles t = -f[2] / d[2], x = f[0] + t * d[0], y = f[1] + t * d[1], square = x * x + y * y;
+    Doubles t = -f.z / d.z, x = f.x + t * d.x, y = f.y + t * d.y, square = x * x + y * y;
     DoublesMask has =
         kind == PRIMITIVE_DISC ? (square <= 1.0) & (square >= hole * hole) : (x >= 0.0) & (y >= 0.0) & (x + y <= 1.0);
-    lanes->possible = asked & doubles_mask_bits(has & (t > zero) & (d[2] != zero));
+    lanes->possible = asked & doubles_mask_bits(has & (t > zero) & (d.z != zero));
     if (!lanes->possible) {
         return false;
     }
     lanes->certain = ~0u;
     if (kind == PRIMITIVE_SMOOTH_TRIANGLE) {
-        lanes->leaves = smooth_lanes_leave(own, x, y, world);
+        lanes->leaves = smooth_lanes_leave(own, x, y, rays->world);
     } else {
-        Vec3 n = own->normal;
-        lanes->leaves = doubles_gt(n.x * world[0] + n.y * world[1] + n.z * world[2], zero);
+        lanes->leaves = doubles_gt(vec3s_dot(vec3s_splat(own->normal), rays->world), zero);
     }
     lanes->root = t;
     lanes->side = (DoublesMask){0};
-    lanes->bound = (own->slack.fixed + own->slack.slope * t) / doubles_abs(d[2]);
+    lanes->bound = (own->slack.fixed + own->slack.slope * t) / doubles_abs(d.z);
     return true;
 }
 
 // The first root of a curve; `starts`: all rays start on it and leave it.
-RT_ALWAYS_INLINE bool curve_lanes(const LanePrimitive *own, PrimitiveKind kind, const Doubles f[3], const Doubles d[3],
-                                  bool starts, unsigned asked, PrimitiveLanes *lanes)
+RT_ALWAYS_INLINE bool curve_lanes(const LanePrimitive *own, PrimitiveKind kind, const RayLanes *rays, bool starts,
+                                  unsigned asked, PrimitiveLanes *lanes)
 {
+    const Doubles f[3] = {rays->f.x, rays->f.y, rays->f.z}, d[3] = {rays->d.x, rays->d.y, rays->d.z};
     CurveFirst first;
     if (!curve_lanes_first(own->solid, kind, starts, f, d, asked, &first)) {
         return false;
@@ -367,38 +288,35 @@ RT_ALWAYS_INLINE bool curve_lanes(const LanePrimitive *own, PrimitiveKind kind, 
     return true;
 }
 
-// The kinds, each with its test. `kind` is a constant of the caller, `world` the rays' directions. False when all of
-// `asked` are missed; nothing else is set then.
-RT_ALWAYS_INLINE bool primitive_lanes(const LanePrimitive *own, PrimitiveKind kind, const Doubles f[3],
-                                      const Doubles d[3], const Doubles world[3], unsigned asked, PrimitiveLanes *lanes)
+// The kinds, each with its test. `kind` is a constant of the caller. False when all of `asked` are missed; nothing else
+// is set then.
+RT_ALWAYS_INLINE bool primitive_lanes(const LanePrimitive *own, PrimitiveKind kind, const RayLanes *rays,
+                                      unsigned asked, PrimitiveLanes *lanes)
 {
     switch (kind) {
     case PRIMITIVE_SPHERE:
-        return ball_lanes(f, d, &own->slack, asked, lanes);
+        return ball_lanes(own, rays, asked, lanes);
     case PRIMITIVE_BOX:
-        return box_lanes(own, f, d, asked, lanes);
+        return box_lanes(own, rays, asked, lanes);
     case PRIMITIVE_CONE:
-        return cone_lanes(own, f, d, asked, lanes);
+        return cone_lanes(own, rays, asked, lanes);
     case PRIMITIVE_TORUS:
-        return curve_lanes(own, PRIMITIVE_TORUS, f, d, false, asked, lanes);
+        return curve_lanes(own, PRIMITIVE_TORUS, rays, false, asked, lanes);
     case PRIMITIVE_POLYNOMIAL:
-        return curve_lanes(own, PRIMITIVE_POLYNOMIAL, f, d, false, asked, lanes);
-    default: return flat_lanes(own, kind, f, d, world, asked, lanes);
+        return curve_lanes(own, PRIMITIVE_POLYNOMIAL, rays, false, asked, lanes);
+    default: return flat_lanes(own, kind, rays, asked, lanes);
     }
 }
 
 // ---- boxes
 
 // item_enters of some rays: those that meet the box, and where.
-RT_ALWAYS_INLINE unsigned box_lanes_enter(const Bvh *tree, const ItemBox *box, const Doubles origin[3],
-                                          const Doubles direction[3], Doubles *enter)
+RT_ALWAYS_INLINE unsigned box_lanes_enter(const Bvh *tree, const ItemBox *box, Vec3s origin, Vec3s world,
+                                          Doubles *enter)
 {
-    const double centre[3] = {tree->centre.x, tree->centre.y, tree->centre.z};
-    Doubles o[3], in = doubles_splat(0.0), out = doubles_splat((double)INFINITY);
-#pragma GCC unroll 3
-    for (int axis = 0; axis < 3; axis++) {
-        o[axis] = tree->scale * (origin[axis] - centre[axis]);
-    }
+    const Vec3s start = vec3s_scale(doubles_splat(tree->scale), vec3s_sub(origin, vec3s_splat(tree->centre)));
+    const Doubles o[3] = {start.x, start.y, start.z}, direction[3] = {world.x, world.y, world.z};
+    Doubles in = doubles_splat(0.0), out = doubles_splat((double)INFINITY);
     Doubles reach = doubles_abs(o[0]) + doubles_abs(o[1]) + doubles_abs(o[2]) +
                     (tree->half.x + tree->half.y + tree->half.z);
     Doubles pad = 12.0 * (DBL_EPSILON / 2) * reach;

@@ -90,7 +90,7 @@ RT_ALWAYS_INLINE double query_start_error(const Geometry *g, unsigned features, 
     }
     bool is_plane = (features & TRACE_PLANES) && start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_PLANE;
     bool may_coincide = query_has_primitives(g, features) || g->plane_count > 1;
-    return is_plane && may_coincide ? plane_crossing_error(&g->planes[shape_index(start.shape)].shape, own, 0.0) : 0.0;
+    return is_plane && may_coincide ? plane_crossing_error(&g->planes[shape_index(start.shape)].shape, own.origin, own.direction, 0.0) : 0.0;
 }
 
 // The parameter at which a plane is met; not positive when it is not.
@@ -109,14 +109,14 @@ RT_ALWAYS_INLINE double query_plane_error(const Geometry *g, unsigned features, 
                                           double t)
 {
     bool may_coincide = query_has_primitives(g, features) || g->plane_count > 1;
-    return may_coincide ? plane_crossing_error(&g->planes[index].shape, (Ray){ray->origin, ray->direction}, t) : 0.0;
+    return may_coincide ? plane_crossing_error(&g->planes[index].shape, ray->origin, ray->direction, t) : 0.0;
 }
 
 // Whether a plane that is crossed at t is met on a way to t_max: it is not when the end lies on it but for rounding.
 RT_ALWAYS_INLINE bool query_plane_before(const PlaneShape *shape, const SphereRay *ray, double t, double t_max)
 {
     return t_max < (double)INFINITY
-               ? t + plane_crossing_error(shape, (Ray){ray->origin, ray->direction}, t) <= way_end(t_max)
+               ? t + plane_crossing_error(shape, ray->origin, ray->direction, t) <= way_end(t_max)
                : t < t_max;
 }
 

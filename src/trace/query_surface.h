@@ -48,7 +48,7 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
     }
     SphereData ball = sphere_table_ball(&g->spheres, index);
     Vec3 normal = sphere_normal(ray, &ball, hit.t);
-    Vec3 point = sphere_point(ray, &ball, hit.t, normal);
+    Vec3 point = sphere_point(&ray, &ball, hit.t, normal);
     return (Surface){point, normal, g->spheres.info[index].material, g->spheres.info[index].order, 0};
 }
 

@@ -27,22 +27,21 @@ typedef struct ShapeGroup {
 } ShapeGroup;
 
 // n·d where some rays start on a primitive's side, n being the gradient there.
-RT_ALWAYS_INLINE Doubles start_along(const PreparedPrimitive *left, uint8_t side, const Doubles f[3],
-                                     const Doubles d[3])
+RT_ALWAYS_INLINE Doubles start_along(const PreparedPrimitive *left, uint8_t side, Vec3s f, Vec3s d)
 {
     int across = prepared_classes[left->kind].across[side];
     if (across > 0) {
-        return d[across - 1];
+        return across == 1 ? d.x : across == 2 ? d.y : d.z;
     }
     if (left->kind == PRIMITIVE_TORUS) {
-        Doubles rho = doubles_sqrt(f[0] * f[0] + f[2] * f[2]);
+        Doubles rho = doubles_sqrt(f.x * f.x + f.z * f.z);
         double ring = side == TORUS_OUTER ? left->data[0].x : -left->data[0].x;
-        return lanes_dot(f, d) - ring * ((f[0] * d[0] + f[2] * d[2]) / rho);
+        return vec3s_dot(f, d) - ring * ((f.x * d.x + f.z * d.z) / rho);
     }
     double slope = left->kind == PRIMITIVE_CONE ? 1.0 - left->data[0].x : 0.0;
     return left->kind == PRIMITIVE_CONE
-               ? f[0] * d[0] + f[1] * d[1] + slope * doubles_sqrt(f[0] * f[0] + f[1] * f[1]) * d[2]
-               : lanes_dot(f, d);
+               ? f.x * d.x + f.y * d.y + slope * doubles_sqrt(f.x * f.x + f.y * f.y) * d.z
+               : vec3s_dot(f, d);
 }
 
 // How much of primitives of the family that they start on the rays have passed, at most.
@@ -61,9 +60,8 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
         if (has_lanes && left->kind != PRIMITIVE_POLYNOMIAL) {
-            Doubles f[3], d[3];
-            lane_primitive_ray(&own, group->origin, group->direction, at, f, d);
-            passed = own.slack.fixed / doubles_abs(start_along(left, primitive_side(from->start.shape), f, d));
+            RayLanes rays = lane_primitive_ray(&own, group->origin, group->direction, at);
+            passed = own.slack.fixed / doubles_abs(start_along(left, primitive_side(from->start.shape), rays.f, rays.d));
         } else if (!left && is_straight) {
             for (unsigned i = 0; i < DOUBLES; i++) {
                 passed[i] = from->start_error[at + i < group->count ? at + i : group->count - 1];
@@ -96,12 +94,10 @@ RT_ALWAYS_INLINE LanesMet group_primitive_lanes(const ShapeGroup *from, const Ra
                                                 PrimitiveKind kind, const ItemBox *box, unsigned at, unsigned asked)
 {
     PrimitiveLanes lanes;
-    Doubles f[3], d[3], direction[3];
-    lane_primitive_ray(own, group->origin, group->direction, at, f, d);
-    lanes_load(group->direction, at, direction);
+    RayLanes rays = lane_primitive_ray(own, group->origin, group->direction, at);
     bool is_met = kind_is_curve(kind) && own->solid == from->left
-                      ? curve_lanes(own, kind, f, d, true, asked, &lanes)
-                      : primitive_lanes(own, kind, f, d, direction, asked, &lanes);
+                      ? curve_lanes(own, kind, &rays, true, asked, &lanes)
+                      : primitive_lanes(own, kind, &rays, asked, &lanes);
     if (!is_met) {
         return (LanesMet){0, 0};
     }
@@ -112,9 +108,8 @@ RT_ALWAYS_INLINE LanesMet group_primitive_lanes(const ShapeGroup *from, const Ra
     unsigned before = doubles_gt(end * (1.0 - 0x1p-40), lanes.root + lanes.bound);
     unsigned met = lanes.possible & lanes.certain & before & doubles_gt(lanes.root, lanes.bound + passed);
     if (met) {
-        Doubles origin[3], enter;
-        lanes_load(group->origin, at, origin);
-        met &= box_lanes_enter(&from->table->tree, box, origin, direction, &enter);
+        Doubles enter;
+        met &= box_lanes_enter(&from->table->tree, box, vec3s_load(group->origin, at), rays.world, &enter);
         met &= doubles_gt(end * (1.0 - 0x1p-40), enter);
     }
     return (LanesMet){met, lanes.possible & ~met & ~(lanes.certain & behind)};

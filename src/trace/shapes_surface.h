@@ -56,7 +56,7 @@ RT_ALWAYS_INLINE void surfaces_fill(const ShapeTable *table, const double *const
 {
     for (int at = 0; at < surfaces->count; at += DOUBLES) {
         unsigned own = of->own >> at & ((1u << DOUBLES) - 1);
-        Doubles begin[3], direction[3], point[3], normal[3], t;
+        _Alignas(64) double begin[3][DOUBLES], t[DOUBLES];
         if (!own) {
             continue;
         }
@@ -67,14 +67,14 @@ RT_ALWAYS_INLINE void surfaces_fill(const ShapeTable *table, const double *const
                 begin[axis][k] = origin[axis][apart * ray];
             }
         }
-        lanes_load(surfaces->direction, (unsigned)at, direction);
-        primitives_surface(table->primitives, kind, *(const DoublesMask *)&of->index[at],
-                           *(const DoublesMask *)&of->side[at], begin, direction, t, point, normal);
-        for (int axis = 0; axis < 3; axis++) {
-            double *points = &surfaces->point[axis][at], *normals = &surfaces->outward[axis][at];
-            doubles_store(points, doubles_choose_bits(own, point[axis], doubles_load(points)));
-            doubles_store(normals, doubles_choose_bits(own, normal[axis], doubles_load(normals)));
-        }
+        DoublesMask index = *(const DoublesMask *)&of->index[at], side = *(const DoublesMask *)&of->side[at];
+        PrimitivesRay rays = primitives_ray(table->primitives, index, vec3s_load(begin, 0),
+                                            vec3s_load(surfaces->direction, at));
+        Vec3s point, normal;
+        primitives_surface(table->primitives, kind, index, side, &rays, doubles_load(t), &point, &normal);
+        DoublesMask is_own = doubles_bits_mask(own);
+        vec3s_store(surfaces->point, at, vec3s_choose(is_own, point, vec3s_load(surfaces->point, at)));
+        vec3s_store(surfaces->outward, at, vec3s_choose(is_own, normal, vec3s_load(surfaces->outward, at)));
     }
     for (uint64_t rest = of->own; rest; rest &= rest - 1) {
         int i = __builtin_ctzll(rest);

@@ -141,7 +141,7 @@ static void tile_ray(ShapesTile *of, unsigned i, uint32_t index, const ItemBox *
 typedef struct TilePrimitive {
     LanePrimitive solid;
     const ItemBox *box;
-    Doubles f[3]; // the origin in its space
+    Vec3s f; // the origin in its space
 } TilePrimitive;
 
 // Makes some rays' roots the first ones.
@@ -168,10 +168,9 @@ RT_ALWAYS_INLINE void tile_primitive_lanes(ShapesTile *of, const TilePrimitive *
 {
     const PreparedPrimitive *primitive = own->solid.solid;
     PrimitiveLanes lanes;
-    Doubles direction[3], d[3];
-    lanes_load(of->tile->direction, at, direction);
-    linears_direction(&own->solid.to_object, direction, d);
-    if (!primitive_lanes(&own->solid, kind, own->f, d, direction, asked, &lanes)) {
+    Vec3s world = vec3s_load(of->tile->direction, at);
+    RayLanes rays = {own->f, linears_direction(&own->solid.to_object, world), world};
+    if (!primitive_lanes(&own->solid, kind, &rays, asked, &lanes)) {
         return;
     }
     TileForemost *all = of->first;
@@ -179,10 +178,9 @@ RT_ALWAYS_INLINE void tile_primitive_lanes(ShapesTile *of, const TilePrimitive *
     Doubles limit = doubles_load(&all->limit[at]), beaten = doubles_load(&all->beaten[at]);
     unsigned other = lanes.possible & ~(lanes.certain & doubles_gt(lanes.root - lanes.bound, limit)), nearest = 0;
     if (other & lanes.certain) {
-        Vec3 eye = of->tile->origin;
-        const Doubles origin[3] = {doubles_splat(eye.x), doubles_splat(eye.y), doubles_splat(eye.z)};
+        Vec3s origin = vec3s_splat(of->tile->origin);
         Doubles enter, to = lanes.root + lanes.bound, begin = lanes.root - lanes.bound;
-        nearest = other & lanes.certain & box_lanes_enter(&of->table->tree, own->box, origin, direction, &enter);
+        nearest = other & lanes.certain & box_lanes_enter(&of->table->tree, own->box, origin, world, &enter);
         to = doubles_choose(to < enter, enter, to);
         begin = doubles_choose(begin < enter, enter, begin);
         nearest &= doubles_gt(from, to) & doubles_gt(beaten, to) & doubles_gt(limit, to);
@@ -224,7 +222,7 @@ RT_ALWAYS_INLINE void tile_primitive_kind(ShapesTile *of, const PreparedPrimitiv
     if (!may) {
         return;
     }
-    TilePrimitive own = {.box = box, .f = {doubles_splat(f.x), doubles_splat(f.y), doubles_splat(f.z)}};
+    TilePrimitive own = {.box = box, .f = vec3s_splat(f)};
     lane_primitive_set(&own.solid, primitive, of->far);
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
         unsigned asked = may >> at & ((1u << DOUBLES) - 1);
@@ -377,17 +375,16 @@ static void tile_refine_roots(ShapesTile *of)
 {
     const PreparedPrimitive *primitives = of->table->primitives;
     Vec3 eye = of->tile->origin;
-    const Doubles origin[3] = {doubles_splat(eye.x), doubles_splat(eye.y), doubles_splat(eye.z)};
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
         unsigned approximate = of->approximate >> at & ((1u << DOUBLES) - 1);
         if (!approximate) {
             continue;
         }
-        Doubles direction[3], before = doubles_load(&of->hits->t[at]), root = before;
+        Doubles before = doubles_load(&of->hits->t[at]), root = before;
         DoublesMask shape = *(const DoublesMask *)&of->shape[at], is_approximate = doubles_bits_mask(approximate);
         shape = (is_approximate & shape) | (~is_approximate & shape[__builtin_ctz(approximate)]);
-        lanes_load(of->tile->direction, at, direction);
-        unsigned certain = balls_refine(primitives, parts_index(shape), origin, direction, &root);
+        unsigned certain = balls_refine(primitives, parts_index(shape), vec3s_splat(eye),
+                                        vec3s_load(of->tile->direction, at), &root);
         doubles_store(&of->hits->t[at], doubles_choose(is_approximate, root, before));
         for (approximate &= ~certain; RT_UNLIKELY(approximate); approximate &= approximate - 1) {
             unsigned i = (unsigned)__builtin_ctz(approximate);

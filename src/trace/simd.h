@@ -282,21 +282,22 @@ RT_ALWAYS_INLINE Doubles doubles_abs(Doubles a)
     return (Doubles)((DoublesMask)a & INT64_MAX);
 }
 
-// a b - product, exactly, for product = a * b, when nothing over- or underflows.
-RT_ALWAYS_INLINE Doubles doubles_product_error(Doubles a, Doubles b, Doubles product)
+#if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
+// a b - c of each, with one rounding.
+RT_ALWAYS_INLINE Doubles doubles_fused(Doubles a, Doubles b, Doubles c)
 {
 #if defined(__AVX512F__)
-    return _mm512_fmsub_pd(a, b, product);
+    return _mm512_fmsub_pd(a, b, c);
 #elif defined(__FMA__)
-    return _mm256_fmsub_pd(a, b, product);
+    return _mm256_fmsub_pd(a, b, c);
 #else
-    const double split = 0x1.0000002p27; // see double_word.h
-    Doubles a_scaled = split * a, b_scaled = split * b;
-    Doubles a_upper = a_scaled - (a_scaled - a), b_upper = b_scaled - (b_scaled - b);
-    Doubles a_lower = a - a_upper, b_lower = b - b_upper;
-    return ((a_upper * b_upper - product) + a_upper * b_lower + a_lower * b_upper) + a_lower * b_lower;
+    for (int i = 0; i < DOUBLES; i++) {
+        a[i] = __builtin_fma(a[i], b[i], -c[i]);
+    }
+    return a;
 #endif
 }
+#endif
 
 // a where the mask is set, else b.
 RT_ALWAYS_INLINE Doubles doubles_choose(DoublesMask mask, Doubles a, Doubles b)

@@ -9,6 +9,8 @@
 //
 // Knows one sphere and one ray; nothing of scenes, materials or trees.
 //
+// What is the same for some rays and spheres at once stands in trace/sphere.inc.
+//
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERE_H
 #define TRACE_SPHERE_H
@@ -56,15 +58,8 @@ RT_ALWAYS_INLINE bool sphere_data_equal(const SphereData *a, const SphereData *b
     return a->radius_squared == b->radius_squared && vec3_equal(a->centre, b->centre);
 }
 
-RT_ALWAYS_INLINE SphereRay sphere_ray_of(Vec3 origin, Vec3 direction, double inverse_square)
-{
-    return (SphereRay){origin, direction, vec3_scale(inverse_square, direction), inverse_square};
-}
-
-RT_ALWAYS_INLINE SphereRay sphere_ray_make(Vec3 origin, Vec3 direction)
-{
-    return sphere_ray_of(origin, direction, 1.0 / vec3_length_squared(direction));
-}
+#include "math/lane_double.h"
+#include "trace/sphere.inc"
 
 // True for a ray that can meet anything at all.
 RT_ALWAYS_INLINE bool sphere_ray_is_usable(const SphereRay *ray)
@@ -86,14 +81,12 @@ typedef enum SphereVerdict {
     SPHERE_UNCERTAIN // ask sphere_exact
 } SphereVerdict;
 
-// Decides class and root in doubles alone (src/trace/spheres_kernel.c does the same to eight spheres at once), or says
-// that it cannot. `t` > 0 and `inside` are set when the sphere is met.
+// Decides class and root in doubles alone (src/trace/spheres_kernel.c does the same to some at once), or says that it
+// cannot. `t` > 0 and `inside` are set when the sphere is met.
 RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const SphereData *ball, double *t, bool *inside)
 {
     Vec3 f = vec3_sub(ray->origin, ball->centre);
-    double t_middle = -vec3_dot(f, ray->direction_over_length2);
-    Vec3 l = vec3_add_scaled(f, t_middle, ray->direction);
-    double discriminant = ball->radius_squared - vec3_length_squared(l);
+    double t_middle, discriminant = sphere_discriminant(ray, f, ball->radius_squared, &t_middle);
     double f_squared = vec3_length_squared(f);
     double sum = f_squared + ball->radius_squared;
     if (!(discriminant >= -SPHERE_ROUNDING * sum)) {
@@ -107,9 +100,8 @@ RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const SphereDat
     if (!(discriminant >= uncertainty && fabs(c) >= uncertainty)) {
         return SPHERE_UNCERTAIN;
     }
-    double far_side = fabs(t_middle) + sqrt(discriminant * ray->inverse_square);
     *inside = c < 0.0;
-    *t = c > 0.0 || t_middle < 0.0 ? fabs(c) * ray->inverse_square / far_side : far_side;
+    *t = sphere_root(t_middle, discriminant, c, ray->inverse_square);
     return SPHERE_MET;
 }
 
@@ -125,41 +117,11 @@ double sphere_exact(const SphereRay *ray, const SphereData *ball, const SphereDa
 int sphere_roots_compare(const SphereRay *ray, const SphereData *a, bool a_inside, const SphereData *b, bool b_inside,
                          double t) __attribute__((cold));
 
-// One Newton step from a root of sphere_test, with the residual |f + t d|² - r² in double-word arithmetic. What the
-// step leaves is e² / (distance of the two roots), and the residual is known to 12 u² (|f|² + r²): the two checks make
-// both less than a quarter of an ulp. When they do not hold, the whole is done in double words.
+// A root of sphere_test made right to an ulp.
 RT_ALWAYS_INLINE double sphere_refine(const SphereRay *ray, const SphereData *ball, double t)
 {
-    const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
-    const double d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
-    const double centre[3] = {ball->centre.x, ball->centre.y, ball->centre.z};
-    double f_squared = 0.0;
-    double slope = 0.0;
-    double low = 0.0;
-    DoubleWord square[3];
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; i++) {
-        DoubleWord f = two_sum(o[i], -centre[i]);
-        DoubleWord along = two_product(t, d[i]);
-        DoubleWord p = two_sum(f.hi, along.hi);
-        square[i] = two_product(p.hi, p.hi);
-        low += square[i].lo + 2.0 * p.hi * (p.lo + (f.lo + along.lo));
-        slope += p.hi * d[i];
-        f_squared += f.hi * f.hi;
-    }
-    double radius = sqrt(ball->radius_squared);
-    DoubleWord r = two_product(radius, radius);
-    DoubleWord xy = two_sum(square[0].hi, square[1].hi);
-    DoubleWord xyz = two_sum(xy.hi, square[2].hi);
-    DoubleWord all = two_sum(xyz.hi, -r.hi);
-    double residual = all.hi + (all.lo + (xyz.lo + (xy.lo + (low - r.lo))));
-    double step = residual / (2.0 * slope);
-    double reach = 2.0 * t * fabs(slope);
-    double sum = f_squared + ball->radius_squared;
-    bool is_certain = sum < 0x1p900 && sum > 0x1p-900 && 0x1p-46 * sum <= reach &&
-                      step * step * 0x1p56 <= reach * ray->inverse_square;
-    bool inside;
-    return RT_LIKELY(is_certain) ? t - step : sphere_exact(ray, ball, NULL, &inside);
+    bool inside, is_certain = sphere_step(ray, ball, &t);
+    return RT_LIKELY(is_certain) ? t : sphere_exact(ray, ball, NULL, &inside);
 }
 
 // The nearest positive root, as right as it gets; 0 for a miss. What the queries below agree with, bit for bit.
@@ -173,34 +135,17 @@ RT_ALWAYS_INLINE double sphere_hit(const SphereRay *ray, const SphereData *ball,
     }
 }
 
-// Where a ray that starts on the sphere and goes in meets it again: with c = 0 the other root is -2 (f·d) / (d·d),
-// whose relative error is at most (3/|cos| + 3) u. Not positive when the ray does not go in.
-RT_ALWAYS_INLINE double sphere_root_inward(const SphereRay *ray, const SphereData *ball)
-{
-    return -2.0 * vec3_dot(vec3_sub(ray->origin, ball->centre), ray->direction_over_length2);
-}
-
 // p(t) - centre in double words, for spheres so far away that nothing of it is left in doubles.
 Vec3 sphere_exact_offset(Ray ray, const SphereData *ball, double t) __attribute__((cold));
 
 // The outward unit normal at p(t), t being refined.
 RT_ALWAYS_INLINE Vec3 sphere_normal(Ray ray, const SphereData *ball, double t)
 {
-    Vec3 offset = vec3_add_scaled(vec3_sub(ray.origin, ball->centre), t, ray.direction);
-    double error = fabs(vec3_length_squared(offset) - ball->radius_squared);
-    if (RT_UNLIKELY(!(error <= 0x1p-20 * ball->radius_squared))) {
+    Vec3 offset = sphere_offset(&ray, ball, t);
+    if (RT_UNLIKELY(!sphere_offset_is_right(ball, offset))) {
         offset = sphere_exact_offset(ray, ball, t);
     }
     return vec3_normalize(offset);
-}
-
-// p(t) put back onto the sphere, t being refined, `normal` that of sphere_normal and the direction of about unit
-// length: of origin + t d, off by u t, and centre + r n, off the sphere by u r, the one that is off by less.
-// docs/numerics.md has more.
-RT_ALWAYS_INLINE Vec3 sphere_point(Ray ray, const SphereData *ball, double t, Vec3 normal)
-{
-    double radius = sqrt(ball->radius_squared);
-    return t < radius ? vec3_add_scaled(ray.origin, t, ray.direction) : vec3_add_scaled(ball->centre, radius, normal);
 }
 
 #endif

@@ -32,7 +32,8 @@ typedef struct CrossedList {
 
 // Lines, some at once.
 typedef struct CrossedLines {
-    Doubles origin[3], direction[3], direction_over_length2[3], inverse_square, end;
+    SphereRays rays;
+    Doubles end;
     Doubles uncertainty, apart, graze; // what the names above stand for
     DoublesMask inward;          // into what they start on
 } CrossedLines;
@@ -60,15 +61,8 @@ static double crossed_reach(const SphereTable *table, const PlaneShape *plane)
 // What is computed of origin, direction and end, where no other coordinate is beyond `reach`.
 RT_ALWAYS_INLINE void crossed_lines_begin(CrossedLines *v, double reach)
 {
-    Doubles square = doubles_splat(0.0), beyond = doubles_splat(reach);
-    for (int axis = 0; axis < 3; axis++) {
-        square += v->direction[axis] * v->direction[axis];
-        beyond += doubles_abs(v->origin[axis]);
-    }
-    v->inverse_square = 1.0 / square;
-    for (int axis = 0; axis < 3; axis++) {
-        v->direction_over_length2[axis] = v->inverse_square * v->direction[axis];
-    }
+    const Vec3s o = v->rays.origin;
+    Doubles beyond = doubles_splat(reach) + doubles_abs(o.x) + doubles_abs(o.y) + doubles_abs(o.z);
     v->uncertainty = CROSSED_UNCERTAINTY * beyond * beyond;
     v->apart = CROSSED_APART * (beyond + doubles_abs(v->end));
     v->graze = CROSSED_GRAZE * beyond;
@@ -77,17 +71,13 @@ RT_ALWAYS_INLINE void crossed_lines_begin(CrossedLines *v, double reach)
 // Those that may be asked for at all.
 RT_ALWAYS_INLINE DoublesMask crossed_lines_usable(const CrossedLines *v)
 {
-    return (v->inverse_square > 0.5) & (v->inverse_square < 2.0) & (v->end > v->apart);
+    return (v->rays.inverse_square > 0.5) & (v->rays.inverse_square < 2.0) & (v->end > v->apart);
 }
 
 static void crossed_load(CrossedVector *v, const TileSurfaces *from, const SurfaceRays *rays, int at, double reach)
 {
-    Doubles cosine = doubles_splat(0.0);
-    for (int axis = 0; axis < 3; axis++) {
-        v->lines.origin[axis] = doubles_load(&from->point[axis][at]);
-        v->lines.direction[axis] = doubles_load(&rays->towards[axis][at]);
-        cosine += doubles_load(&from->outward[axis][at]) * v->lines.direction[axis];
-    }
+    v->lines.rays = sphere_rays_make(vec3s_load(from->point, at), vec3s_load(rays->towards, at));
+    Doubles cosine = vec3s_dot(vec3s_load(from->outward, at), v->lines.rays.direction);
     v->lines.end = doubles_load(&rays->distance[at]);
     crossed_lines_begin(&v->lines, reach);
     v->lines.inward = cosine < 0.0;
@@ -129,20 +119,13 @@ RT_ALWAYS_INLINE DoublesMask crossed_before(const CrossedLines *v, DoublesMask m
 }
 
 // Those of `own` start on the sphere. False when none of `asked` has anything to do with it.
-RT_ALWAYS_INLINE bool crossed_pairs(const CrossedLines *v, const Doubles centre[3], Doubles radius_squared,
-                                    DoublesMask own, unsigned asked, CrossedPairs *pairs)
+RT_ALWAYS_INLINE bool crossed_pairs(const CrossedLines *v, const Balls *ball, DoublesMask own, unsigned asked,
+                                    CrossedPairs *pairs)
 {
-    Doubles fx = v->origin[0] - centre[0];
-    Doubles fy = v->origin[1] - centre[1];
-    Doubles fz = v->origin[2] - centre[2];
-    Doubles t_middle =
-        -(fx * v->direction_over_length2[0] + fy * v->direction_over_length2[1] + fz * v->direction_over_length2[2]);
-    Doubles lx = fx + t_middle * v->direction[0];
-    Doubles ly = fy + t_middle * v->direction[1];
-    Doubles lz = fz + t_middle * v->direction[2];
-    Doubles discriminant = radius_squared - (lx * lx + ly * ly + lz * lz);
-    Doubles c = (fx * fx + fy * fy + fz * fz) - radius_squared;
-    Doubles half = doubles_sqrt(doubles_abs(discriminant) * v->inverse_square);
+    Vec3s f = vec3s_sub(v->rays.origin, ball->centre);
+    Doubles t_middle, discriminant = spheres_discriminant(&v->rays, f, ball->radius_squared, &t_middle);
+    Doubles c = vec3s_length_squared(f) - ball->radius_squared;
+    Doubles half = doubles_sqrt(doubles_abs(discriminant) * v->rays.inverse_square);
     pairs->near_side = t_middle - half;
     // What it starts outside of and goes away from, or reaches after its end, is not met.
     DoublesMask passed = ((c > v->uncertainty) & ((t_middle < 0.0) | (pairs->near_side > v->end + v->graze))) |
@@ -162,11 +145,10 @@ RT_ALWAYS_INLINE bool crossed_pairs(const CrossedLines *v, const Doubles centre[
 RT_ALWAYS_INLINE void crossed_sphere(CrossedVector *v, const SphereData *ball, ShapeId shape, unsigned starts,
                                      unsigned asked)
 {
-    const Doubles centre[3] = {doubles_splat(ball->centre.x), doubles_splat(ball->centre.y),
-                               doubles_splat(ball->centre.z)};
+    const Balls balls = {vec3s_splat(ball->centre), doubles_splat(ball->radius_squared)};
     DoublesMask own = starts ? doubles_bits_mask(starts) : (DoublesMask){0};
     CrossedPairs pairs;
-    if (crossed_pairs(&v->lines, centre, doubles_splat(ball->radius_squared), own, asked, &pairs)) {
+    if (crossed_pairs(&v->lines, &balls, own, asked, &pairs)) {
         v->is_open |= pairs.is_open;
         unsigned open = ~doubles_mask_bits(v->is_open) & asked;
         crossed_add(v->into, true, doubles_mask_bits(pairs.into) & open, pairs.near_side, shape);
@@ -178,9 +160,9 @@ RT_ALWAYS_INLINE void crossed_sphere(CrossedVector *v, const SphereData *ball, S
 RT_ALWAYS_INLINE DoublesMask crossed_plane(const CrossedLines *v, const PlaneShape *plane, DoublesMask own,
                                            Doubles *root, DoublesMask *is_open)
 {
-    Vec3 n = plane->normal;
-    Doubles along = n.x * v->direction[0] + n.y * v->direction[1] + n.z * v->direction[2];
-    Doubles height = plane->distance - (n.x * v->origin[0] + n.y * v->origin[1] + n.z * v->origin[2]);
+    Vec3s n = vec3s_splat(plane->normal);
+    Doubles along = vec3s_dot(n, v->rays.direction);
+    Doubles height = plane->distance - vec3s_dot(n, v->rays.origin);
     *root = height / along;
     DoublesMask ahead = ~own & ~((*root < -v->apart) | (doubles_abs(height) > 2.0 * v->end));
     *is_open |= ahead & ~((*root > v->apart) & (doubles_abs(along) > CROSSED_GRAZE));
@@ -270,9 +252,7 @@ static __attribute__((noinline)) bool ray_crossed_lists(const SphereTable *table
     if (reach == 0.0) {
         return false;
     }
-    CrossedLines v = {.origin = {doubles_splat(ray->origin.x), doubles_splat(ray->origin.y), doubles_splat(ray->origin.z)},
-                      .direction = {doubles_splat(ray->direction.x), doubles_splat(ray->direction.y),
-                                    doubles_splat(ray->direction.z)},
+    CrossedLines v = {.rays = sphere_rays_make(vec3s_splat(ray->origin), vec3s_splat(ray->direction)),
                       .end = doubles_splat(t_max)};
     crossed_lines_begin(&v, reach);
     v.inward = (DoublesMask){0} - (int64_t)start.inward;
@@ -283,9 +263,9 @@ static __attribute__((noinline)) bool ray_crossed_lists(const SphereTable *table
     for (uint32_t at = 0; at < few_slots(table); at += DOUBLES) {
         const SphereBlock *block = &table->blocks[at / SPHERE_BLOCK];
         uint32_t i = at % SPHERE_BLOCK;
-        const Doubles centre[3] = {doubles_load(&block->x[i]), doubles_load(&block->y[i]), doubles_load(&block->z[i])};
+        const Balls balls = balls_load(block, i);
         DoublesMask own = slot - at < DOUBLES ? doubles_bits_mask(1u << (slot - at)) : (DoublesMask){0};
-        if (!crossed_pairs(&v, centre, doubles_load(&block->radius_squared[i]), own, all, &pairs)) {
+        if (!crossed_pairs(&v, &balls, own, all, &pairs)) {
             continue;
         }
         if (doubles_mask_bits(pairs.is_open)) {

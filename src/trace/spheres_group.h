@@ -3,8 +3,8 @@
 // Seen from that point, a light, they are a beam through the tree, whose boxes begin with those next to the light. Rays
 // that end beside it are never farther from that beam than their ends. What the leaves hold is narrowed by a cone, whose
 // margin is far above what rounding does to the ends of rays.
-// What is left is tested against some rays at once, each from its own origin: sphere_test, operation by operation, so
-// the answers are those of single rays.
+// What is left is tested against some rays at once, each from its own origin, by the arithmetic of single rays
+// (trace/sphere.inc).
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_GROUP_H
@@ -13,6 +13,7 @@
 #include "trace/bvh_walk.h"
 #include "trace/cone_test.h"
 #include "trace/simd.h"
+#include "trace/sphere_rays.h"
 #include "trace/spheres.h"
 
 enum {
@@ -42,20 +43,11 @@ static SphereRay group_ray(const RayGroup *group, unsigned i)
 // Those of a vector's rays that meet the sphere before they end.
 RT_ALWAYS_INLINE unsigned group_test(const RayGroup *group, const SphereData *ball, unsigned at)
 {
-    Doubles dx = doubles_load(&group->direction[0][at]);
-    Doubles dy = doubles_load(&group->direction[1][at]);
-    Doubles dz = doubles_load(&group->direction[2][at]);
-    Doubles fx = doubles_load(&group->origin[0][at]) - ball->centre.x;
-    Doubles fy = doubles_load(&group->origin[1][at]) - ball->centre.y;
-    Doubles fz = doubles_load(&group->origin[2][at]) - ball->centre.z;
-    Doubles inverse_square = doubles_load(&group->inverse_square[at]);
-    Doubles t_middle =
-        -(fx * (inverse_square * dx) + fy * (inverse_square * dy) + fz * (inverse_square * dz));
-    Doubles lx = fx + t_middle * dx;
-    Doubles ly = fy + t_middle * dy;
-    Doubles lz = fz + t_middle * dz;
-    Doubles discriminant = ball->radius_squared - (lx * lx + ly * ly + lz * lz);
-    Doubles f_squared = fx * fx + fy * fy + fz * fz;
+    SphereRays rays = sphere_rays_of(vec3s_load(group->origin, at), vec3s_load(group->direction, at),
+                                     doubles_load(&group->inverse_square[at]));
+    Vec3s f = vec3s_sub(rays.origin, vec3s_splat(ball->centre));
+    Doubles t_middle, discriminant = spheres_discriminant(&rays, f, doubles_splat(ball->radius_squared), &t_middle);
+    Doubles f_squared = vec3s_length_squared(f);
     Doubles sum = f_squared + ball->radius_squared;
     unsigned possible = doubles_ge(discriminant, -SPHERE_ROUNDING * sum);
     if (!possible) {
@@ -64,10 +56,7 @@ RT_ALWAYS_INLINE unsigned group_test(const RayGroup *group, const SphereData *ba
     Doubles c = f_squared - ball->radius_squared;
     Doubles uncertainty = SPHERE_UNCERTAINTY * sum;
     Doubles ends = doubles_load(&group->distance[at]);
-    Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * inverse_square);
-    Doubles near_side = doubles_abs(c) * inverse_square / far_side;
-    Doubles is_far = (Doubles)(~(DoublesMask)t_middle & (DoublesMask)c); // by its sign
-    Doubles root = doubles_if_negative(is_far, far_side, near_side);
+    Doubles root = spheres_root(t_middle, discriminant, c, rays.inverse_square);
     possible &= doubles_ge(t_middle, doubles_splat(0.0)) | ~doubles_ge(c, uncertainty);
     unsigned certain = doubles_ge(discriminant, uncertainty) & doubles_ge(doubles_abs(c), uncertainty);
     unsigned before = ~doubles_ge(root, ends * (1.0 - SPHERE_ROOT_SLACK)); // as sphere_root_is_before says at once
@@ -188,21 +177,14 @@ static bool group_occluded(const SphereTable *table, const RayGroup *group, uint
 // What depends on directions alone; false when one of them is not usable.
 static bool group_look(RayGroup *group)
 {
-    const double end[3] = {group->end.x, group->end.y, group->end.z};
+    const Vec3s end = vec3s_splat(group->end);
     unsigned usable = ~0u;
     Doubles farthest = doubles_splat(0.0);
     for (unsigned i = 0; i < group->whole; i += DOUBLES) {
-        Doubles square = doubles_splat(0.0), away[3], away_squared = doubles_splat(0.0);
-        for (int axis = 0; axis < 3; axis++) {
-            Doubles d = doubles_load(&group->direction[axis][i]);
-            square += d * d;
-            away[axis] = doubles_load(&group->origin[axis][i]) - end[axis];
-            away_squared += away[axis] * away[axis];
-        }
-        Doubles inverse_square = 1.0 / square, distance = doubles_sqrt(away_squared), shrink = 1.0 / distance;
-        for (int axis = 0; axis < 3; axis++) {
-            doubles_store(&group->seen[axis][i], shrink * away[axis]);
-        }
+        Vec3s away = vec3s_sub(vec3s_load(group->origin, i), end);
+        Doubles inverse_square = 1.0 / vec3s_length_squared(vec3s_load(group->direction, i));
+        Doubles distance = vec3s_length(away);
+        vec3s_store(group->seen, i, vec3s_scale(1.0 / distance, away));
         doubles_store(&group->inverse_square[i], inverse_square);
         usable &= doubles_gt(inverse_square, doubles_splat(0x1p-100)) &
                   doubles_gt(doubles_splat((double)INFINITY), inverse_square) &
@@ -247,9 +229,7 @@ static uint64_t surfaces_inward(const TileSurfaces *from, const SurfaceRays *ray
 {
     uint64_t inward = 0;
     for (int i = 0; i < from->count; i += DOUBLES) {
-        Doubles along = doubles_load(&from->outward[0][i]) * doubles_load(&rays->towards[0][i]) +
-                        doubles_load(&from->outward[1][i]) * doubles_load(&rays->towards[1][i]) +
-                        doubles_load(&from->outward[2][i]) * doubles_load(&rays->towards[2][i]);
+        Doubles along = vec3s_dot(vec3s_load(from->outward, i), vec3s_load(rays->towards, i));
         inward |= (uint64_t)doubles_gt(doubles_splat(0.0), along) << i;
     }
     return inward;

@@ -1,7 +1,7 @@
 // Rays against the spheres: compiled once for each instruction set, with ISA_NAME the name of the table.
 //
-// A leaf is a block of eight spheres, tested at once in doubles. Operations and their order are those of sphere_test,
-// so that verdicts and roots are the same bits in vectors of any width.
+// A leaf is a block of eight spheres, tested at once in doubles, with the verdicts and roots of sphere_test in vectors of
+// any width.
 //
 // SPDX-License-Identifier: MIT
 #include "base/isa.h"
@@ -58,22 +58,16 @@ RT_ALWAYS_INLINE unsigned block_others(uint32_t block, const BlockStart *start)
 RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray, unsigned asked, double limit,
                                  BlockHits *hits)
 {
+    const SphereRays rays = sphere_rays_splat(ray);
     Doubles discriminant[HALVES], t_middle[HALVES], f_squared[HALVES], sum[HALVES];
     unsigned possible = 0;
 #pragma GCC unroll 4
     for (int i = 0; i < HALVES; i++) {
-        Doubles fx = ray->origin.x - doubles_load(&block->x[i * DOUBLES]);
-        Doubles fy = ray->origin.y - doubles_load(&block->y[i * DOUBLES]);
-        Doubles fz = ray->origin.z - doubles_load(&block->z[i * DOUBLES]);
-        Doubles radius_squared = doubles_load(&block->radius_squared[i * DOUBLES]);
-        t_middle[i] = -(fx * ray->direction_over_length2.x + fy * ray->direction_over_length2.y +
-                        fz * ray->direction_over_length2.z);
-        Doubles lx = fx + t_middle[i] * ray->direction.x;
-        Doubles ly = fy + t_middle[i] * ray->direction.y;
-        Doubles lz = fz + t_middle[i] * ray->direction.z;
-        discriminant[i] = radius_squared - (lx * lx + ly * ly + lz * lz);
-        f_squared[i] = fx * fx + fy * fy + fz * fz;
-        sum[i] = f_squared[i] + radius_squared;
+        Balls balls = balls_load(block, (uint32_t)i * DOUBLES);
+        Vec3s f = vec3s_sub(rays.origin, balls.centre);
+        discriminant[i] = spheres_discriminant(&rays, f, balls.radius_squared, &t_middle[i]);
+        f_squared[i] = vec3s_length_squared(f);
+        sum[i] = f_squared[i] + balls.radius_squared;
         possible |= doubles_ge(discriminant[i], -SPHERE_ROUNDING * sum[i]) << (i * DOUBLES);
     }
     possible &= asked;
@@ -85,10 +79,7 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
     for (int i = 0; i < HALVES; i++) {
         Doubles c = f_squared[i] - doubles_load(&block->radius_squared[i * DOUBLES]);
         Doubles uncertainty = SPHERE_UNCERTAINTY * sum[i];
-        Doubles far_side = doubles_abs(t_middle[i]) + doubles_sqrt(discriminant[i] * ray->inverse_square);
-        Doubles near_side = doubles_abs(c) * ray->inverse_square / far_side;
-        Doubles is_far = (Doubles)(~(DoublesMask)t_middle[i] & (DoublesMask)c); // by its sign
-        Doubles t = doubles_if_negative(is_far, far_side, near_side);
+        Doubles t = spheres_root(t_middle[i], discriminant[i], c, rays.inverse_square);
         doubles_store(&hits->t[i * DOUBLES], t);
         certain |= (doubles_ge(discriminant[i], uncertainty) & doubles_ge(doubles_abs(c), uncertainty))
                    << (i * DOUBLES);

@@ -1,7 +1,6 @@
 // Rays that continue from surfaces against few spheres and a plane: part of spheres_kernel.c.
 //
-// Some rays at once against one sphere after the other: sphere_test, operation by operation, so the answers are those
-// of single rays. A ray for which one of them is doubtful, or two are about equally near, is left to be asked by
+// Some rays at once against one sphere after the other, by the arithmetic of single rays (trace/sphere.inc). A ray for which one of them is doubtful, or two are about equally near, is left to be asked by
 // itself.
 //
 // SPDX-License-Identifier: MIT
@@ -11,11 +10,11 @@
 #include "trace/plane.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
-#include "trace/spheres_refine.h"
+#include "trace/sphere_rays.h"
 
 // A vector of rays, and what they have met so far.
 typedef struct SecondaryVector {
-    Doubles origin[3], direction[3], direction_over_length2[3], inverse_square;
+    SphereRays rays;
     Doubles t;                  // INFINITY where nothing is met
     DoublesMask shape;          // ShapeId
     DoublesMask inside, is_open; // -1 where it is; the ray is to be asked by itself
@@ -53,21 +52,12 @@ static void secondary_starts(const SphereTable *table, const ShapeId *start, int
 // False when one of the rays is not usable.
 RT_ALWAYS_INLINE bool secondary_load(SecondaryVector *v, const SecondaryRays *rays, int at)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        v->origin[axis] = doubles_load(&rays->origin[axis][at]);
-        v->direction[axis] = doubles_load(&rays->direction[axis][at]);
-    }
-    Doubles square =
-        v->direction[0] * v->direction[0] + v->direction[1] * v->direction[1] + v->direction[2] * v->direction[2];
-    v->inverse_square = 1.0 / square;
-    for (int axis = 0; axis < 3; axis++) {
-        v->direction_over_length2[axis] = v->inverse_square * v->direction[axis];
-    }
+    v->rays = sphere_rays_make(vec3s_load(rays->origin, at), vec3s_load(rays->direction, at));
     v->t = doubles_splat((double)INFINITY);
     v->shape = (DoublesMask){0} + (int64_t)SHAPE_NONE;
     v->inside = v->is_open = v->is_approximate = (DoublesMask){0};
-    unsigned usable = doubles_gt(v->inverse_square, doubles_splat(0x1p-100)) &
-                      doubles_gt(doubles_splat((double)INFINITY), v->inverse_square);
+    unsigned usable = doubles_gt(v->rays.inverse_square, doubles_splat(0x1p-100)) &
+                      doubles_gt(doubles_splat((double)INFINITY), v->rays.inverse_square);
     return usable == (1u << DOUBLES) - 1;
 }
 
@@ -87,9 +77,8 @@ RT_ALWAYS_INLINE void secondary_inward(const SphereTable *table, const Secondary
         centre[1][i] = ball.centre.y;
         centre[2][i] = ball.centre.z;
     }
-    Doubles root = -2.0 * ((v->origin[0] - doubles_load(centre[0])) * v->direction_over_length2[0] +
-                           (v->origin[1] - doubles_load(centre[1])) * v->direction_over_length2[1] +
-                           (v->origin[2] - doubles_load(centre[2])) * v->direction_over_length2[2]);
+    const Balls balls = {vec3s_load(centre, 0), doubles_splat(0.0)};
+    Doubles root = spheres_root_inward(&v->rays, &balls);
     DoublesMask met = into & (root > 0.0) & (root < (double)INFINITY);
     v->t = doubles_choose(met, root, v->t);
     v->shape = (met & shape) | (~met & v->shape);
@@ -99,16 +88,9 @@ RT_ALWAYS_INLINE void secondary_inward(const SphereTable *table, const Secondary
 // One sphere. The rays of `starts` leave it, or go into it.
 RT_ALWAYS_INLINE void secondary_sphere(SecondaryVector *v, const SphereData *ball, uint32_t slot, unsigned starts)
 {
-    Doubles fx = v->origin[0] - ball->centre.x;
-    Doubles fy = v->origin[1] - ball->centre.y;
-    Doubles fz = v->origin[2] - ball->centre.z;
-    Doubles t_middle =
-        -(fx * v->direction_over_length2[0] + fy * v->direction_over_length2[1] + fz * v->direction_over_length2[2]);
-    Doubles lx = fx + t_middle * v->direction[0];
-    Doubles ly = fy + t_middle * v->direction[1];
-    Doubles lz = fz + t_middle * v->direction[2];
-    Doubles discriminant = ball->radius_squared - (lx * lx + ly * ly + lz * lz);
-    Doubles f_squared = fx * fx + fy * fy + fz * fz;
+    Vec3s f = vec3s_sub(v->rays.origin, vec3s_splat(ball->centre));
+    Doubles t_middle, discriminant = spheres_discriminant(&v->rays, f, doubles_splat(ball->radius_squared), &t_middle);
+    Doubles f_squared = vec3s_length_squared(f);
     Doubles sum = f_squared + ball->radius_squared;
     Doubles rounding = -SPHERE_ROUNDING * sum;
     if (!(doubles_ge(discriminant, rounding) & ~starts)) {
@@ -116,10 +98,7 @@ RT_ALWAYS_INLINE void secondary_sphere(SecondaryVector *v, const SphereData *bal
     }
     Doubles c = f_squared - ball->radius_squared;
     Doubles uncertainty = SPHERE_UNCERTAINTY * sum;
-    Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * v->inverse_square);
-    Doubles near_side = doubles_abs(c) * v->inverse_square / far_side;
-    Doubles is_far = (Doubles)(~(DoublesMask)t_middle & (DoublesMask)c); // by its sign
-    Doubles root = doubles_if_negative(is_far, far_side, near_side);
+    Doubles root = spheres_root(t_middle, discriminant, c, v->rays.inverse_square);
     DoublesMask possible = (discriminant >= rounding) & ((t_middle >= 0.0) | ~(c >= uncertainty));
     possible = starts ? possible & ~doubles_bits_mask(starts) : possible;
     DoublesMask certain = (discriminant >= uncertainty) & (doubles_abs(c) >= uncertainty);
@@ -141,7 +120,7 @@ static void secondary_settle(const SphereTable *table, SecondaryVector *v)
     }
     Balls balls = balls_gather(table, (met & v->shape) | (~met & v->shape[__builtin_ctz(any)]));
     Doubles t = v->t;
-    unsigned certain = roots_refine(v->origin, v->direction, v->inverse_square, &balls, &t);
+    unsigned certain = spheres_step(&v->rays, &balls, &t);
     v->t = doubles_choose(met, t, v->t);
     v->is_open |= any & ~certain ? met & ~doubles_bits_mask(certain) : (DoublesMask){0};
 }
@@ -149,9 +128,9 @@ static void secondary_settle(const SphereTable *table, SecondaryVector *v)
 // A plane. The rays of `starts` leave it.
 RT_ALWAYS_INLINE void secondary_plane(SecondaryVector *v, const PlaneShape *plane, ShapeId shape, unsigned starts)
 {
-    Vec3 n = plane->normal;
-    Doubles along = n.x * v->direction[0] + n.y * v->direction[1] + n.z * v->direction[2];
-    Doubles root = (plane->distance - (n.x * v->origin[0] + n.y * v->origin[1] + n.z * v->origin[2])) / along;
+    Vec3s n = vec3s_splat(plane->normal);
+    Doubles along = vec3s_dot(n, v->rays.direction);
+    Doubles root = (plane->distance - vec3s_dot(n, v->rays.origin)) / along;
     DoublesMask ahead = root > 0.0;
     ahead = starts ? ahead & ~doubles_bits_mask(starts) : ahead;
     DoublesMask nearer = ahead & (root < v->t);

@@ -1,12 +1,13 @@
 // Points and normals of what a tile's rays have met, some at once: part of spheres_kernel.c.
 //
-// Operations and their order are those of geometry_surface for spheres, so the bits are the same.
+// By the arithmetic of single rays (trace/sphere.inc), so the bits are those of geometry_surface.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_SURFACE_H
 #define TRACE_SPHERES_SURFACE_H
 
 #include "trace/simd.h"
+#include "trace/sphere_rays.h"
 #include "trace/spheres.h"
 
 // Of rays from one point, `apart` = 0, or each from its own, `apart` = 1.
@@ -49,27 +50,14 @@ RT_ALWAYS_INLINE uint64_t surfaces_find(const SphereTable *table, const double *
     }
     uint64_t done = 0;
     for (unsigned i = 0; i < count; i += DOUBLES) {
-        Doubles offset[3], own[3], begun[3], along[3];
-        Doubles square = doubles_load(&radius_squared[i]);
-#pragma GCC unroll 3
-        for (int axis = 0; axis < 3; axis++) {
-            own[axis] = doubles_load(&centre[axis][i]);
-            begun[axis] = apart ? doubles_load(&begin[axis][i]) : doubles_splat(*origin[axis]);
-            along[axis] = doubles_load(&t[i]) * doubles_load(&surfaces->direction[axis][i]);
-            offset[axis] = (begun[axis] - own[axis]) + along[axis];
-        }
-        Doubles length_squared = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
-        done |= (uint64_t)doubles_ge(0x1p-20 * square, doubles_abs(length_squared - square)) << i;
-        Doubles shrink = 1.0 / doubles_sqrt(length_squared);
-        Doubles radius = doubles_sqrt(square);
-        DoublesMask is_near = doubles_load(&t[i]) < radius;
-#pragma GCC unroll 3
-        for (int axis = 0; axis < 3; axis++) {
-            Doubles normal = shrink * offset[axis];
-            doubles_store(&surfaces->outward[axis][i], normal);
-            doubles_store(&surfaces->point[axis][i],
-                          doubles_choose(is_near, begun[axis] + along[axis], own[axis] + radius * normal));
-        }
+        Vec3s from = apart ? vec3s_load(begin, i) : vec3s_splat(vec3(*origin[0], *origin[1], *origin[2]));
+        const Rays rays = {from, vec3s_load(surfaces->direction, i)};
+        const Balls balls = {vec3s_load(centre, i), doubles_load(&radius_squared[i])};
+        Vec3s offset = spheres_offset(&rays, &balls, doubles_load(&t[i]));
+        done |= (uint64_t)spheres_offset_is_right(&balls, offset) << i;
+        Vec3s normal = vec3s_normalize(offset);
+        vec3s_store(surfaces->outward, i, normal);
+        vec3s_store(surfaces->point, i, spheres_point(&rays, &balls, doubles_load(&t[i]), normal));
     }
     return done;
 }

@@ -3,7 +3,7 @@
 // The tile walks the tree once, as a beam. What its leaves hold is narrowed by planes through the origin of the rays:
 // blocks to the spheres that the planes of the tile's rows and columns touch, those to the rows whose planes they touch
 // before all rays of the row have met something, and only there rays are tested, a row at a time. Planes carry a margin
-// far above their rounding; the test of a ray is sphere_test's, operation by operation, so hits are those of single rays.
+// far above their rounding; the test of a ray is sphere_test's (trace/sphere.inc), so hits are those of single rays.
 // Roots are refined at the end, some at once.
 //
 // SPDX-License-Identifier: MIT
@@ -14,7 +14,7 @@
 #include "trace/cone_test.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
-#include "trace/spheres_refine.h"
+#include "trace/sphere_rays.h"
 #include "trace/tile_planes.h"
 
 // A tile on its way: its rays, planes through them, and what they have met so far.
@@ -30,33 +30,28 @@ typedef struct TileBeam {
     _Alignas(64) int64_t shape[TILE_RAYS]; // of the hits, as wide as their roots
 } TileBeam;
 
+// Some of a tile's rays.
+RT_ALWAYS_INLINE SphereRays sphere_tile_rays(const SphereTile *tile, unsigned at)
+{
+    return (SphereRays){vec3s_splat(tile->origin), vec3s_load(tile->direction, at),
+                        vec3s_load(tile->direction_over_length2, at), doubles_load(&tile->inverse_square[at])};
+}
+
 static bool view_tile(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile)
 {
-    const double begin[3] = {view->direction.x, view->direction.y, view->direction.z};
-    const double right[3] = {view->right.x, view->right.y, view->right.z};
-    const double up[3] = {view->up.x, view->up.y, view->up.z};
+    const Vec3s origin = vec3s_splat(view->origin), begin = vec3s_splat(view->direction);
+    const Vec3s right = vec3s_splat(view->right), up = vec3s_splat(view->up);
     Doubles least = doubles_splat((double)INFINITY);
     Doubles greatest = doubles_splat(0.0);
     tile->origin = view->origin;
     for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
-        Doubles towards[3];
-#pragma GCC unroll 3
-        for (int axis = 0; axis < 3; axis++) {
-            towards[axis] = begin[axis] + (doubles_load(&u[i]) * right[axis] - doubles_load(&v[i]) * up[axis]);
-        }
-        Doubles shrink =
-            1.0 / doubles_sqrt(towards[0] * towards[0] + towards[1] * towards[1] + towards[2] * towards[2]);
-        Doubles x = shrink * towards[0], y = shrink * towards[1], z = shrink * towards[2];
-        Doubles inverse_square = 1.0 / (x * x + y * y + z * z);
-        doubles_store(&tile->direction[0][i], x);
-        doubles_store(&tile->direction[1][i], y);
-        doubles_store(&tile->direction[2][i], z);
-        doubles_store(&tile->direction_over_length2[0][i], inverse_square * x);
-        doubles_store(&tile->direction_over_length2[1][i], inverse_square * y);
-        doubles_store(&tile->direction_over_length2[2][i], inverse_square * z);
-        doubles_store(&tile->inverse_square[i], inverse_square);
-        least = doubles_min(inverse_square, least);
-        greatest = doubles_max(inverse_square, greatest);
+        Vec3s aside = vec3s_sub(vec3s_scale(doubles_load(&u[i]), right), vec3s_scale(doubles_load(&v[i]), up));
+        SphereRays rays = sphere_rays_make(origin, vec3s_normalize(vec3s_add(begin, aside)));
+        vec3s_store(tile->direction, i, rays.direction);
+        vec3s_store(tile->direction_over_length2, i, rays.direction_over_length2);
+        doubles_store(&tile->inverse_square[i], rays.inverse_square);
+        least = doubles_min(rays.inverse_square, least);
+        greatest = doubles_max(rays.inverse_square, greatest);
     }
     return doubles_least(least) > 0x1p-100 && doubles_greatest(greatest) < (double)INFINITY;
 }
@@ -91,9 +86,9 @@ static bool view_passes(const SphereTable *table, const TileView *view, const do
 
 // Bit i is set where spheres at f from the origin do not touch a plane: where the middle of a ray's way through a sphere
 // is no farther from the origin than |f|, f is no farther from the plane than |f| spread + radius.
-RT_ALWAYS_INLINE unsigned planes_apart(const Doubles f[3], const Doubles normal[3], Doubles reach)
+RT_ALWAYS_INLINE unsigned planes_apart(Vec3s f, Vec3s normal, Doubles reach)
 {
-    return doubles_ge(doubles_abs(f[0] * normal[0] + f[1] * normal[1] + f[2] * normal[2]), reach);
+    return doubles_ge(doubles_abs(vec3s_dot(f, normal)), reach);
 }
 
 // What a block's spheres are to the origin of a tile.
@@ -109,32 +104,28 @@ RT_ALWAYS_INLINE unsigned block_view(const TileBeam *beam, const SphereBlock *bl
 {
     enum { PARTS = SPHERE_BLOCK / DOUBLES };
     unsigned touched = 0;
-    Vec3 origin = beam->tile->origin, n = beam->planes.along.normal, m = beam->planes.across.normal;
-    const Doubles along[3] = {doubles_splat(n.x), doubles_splat(n.y), doubles_splat(n.z)};
-    const Doubles across[3] = {doubles_splat(m.x), doubles_splat(m.y), doubles_splat(m.z)};
-    Doubles f[PARTS][3], f_squared[PARTS], distance[PARTS], radius[PARTS], nearest[PARTS];
+    const Vec3s origin = vec3s_splat(beam->tile->origin), along = vec3s_splat(beam->planes.along.normal);
+    const Vec3s across = vec3s_splat(beam->planes.across.normal);
+    Vec3s f[PARTS];
+    Doubles f_squared[PARTS], distance[PARTS], radius[PARTS], nearest[PARTS];
 #pragma GCC unroll 4
     for (int i = 0; i < PARTS; i++) {
         int at = i * DOUBLES;
-        f[i][0] = origin.x - doubles_load(&block->x[at]);
-        f[i][1] = origin.y - doubles_load(&block->y[at]);
-        f[i][2] = origin.z - doubles_load(&block->z[at]);
-        f_squared[i] = f[i][0] * f[i][0] + f[i][1] * f[i][1] + f[i][2] * f[i][2];
-        Doubles radius_squared = doubles_load(&block->radius_squared[at]);
+        Balls balls = balls_load(block, (uint32_t)at);
+        f[i] = vec3s_sub(origin, balls.centre);
+        f_squared[i] = vec3s_length_squared(f[i]);
         distance[i] = doubles_sqrt(f_squared[i]);
-        radius[i] = doubles_sqrt(radius_squared);
+        radius[i] = doubles_sqrt(balls.radius_squared);
         nearest[i] = doubles_min(distance[i] * (1.0 - 2.0 * CONE_MARGIN) - radius[i], doubles_splat(DBL_MAX));
         unsigned apart = planes_apart(f[i], along, distance[i] * beam->planes.along.spread + radius[i]) |
                          planes_apart(f[i], across, distance[i] * beam->planes.across.spread + radius[i]) |
                          doubles_ge(nearest[i], doubles_splat(beam->limit));
-        touched |= (doubles_ge(radius_squared, doubles_splat(0.0)) & ~apart) << at;
+        touched |= (doubles_ge(balls.radius_squared, doubles_splat(0.0)) & ~apart) << at;
     }
 #pragma GCC unroll 4
     for (int i = 0; touched && i < PARTS; i++) {
         int at = i * DOUBLES;
-        doubles_store(&view->f[0][at], f[i][0]);
-        doubles_store(&view->f[1][at], f[i][1]);
-        doubles_store(&view->f[2][at], f[i][2]);
+        vec3s_store(view->f, at, f[i]);
         doubles_store(&view->f_squared[at], f_squared[i]);
         doubles_store(&view->distance[at], distance[i]);
         doubles_store(&view->radius[at], radius[i]);
@@ -165,14 +156,13 @@ typedef struct RowHits {
 // The rows that a sphere touches before all their rays have met something.
 static unsigned beam_rows(TileBeam *beam, const TileSphere *sphere)
 {
-    const Doubles f[3] = {doubles_splat(sphere->f.x), doubles_splat(sphere->f.y), doubles_splat(sphere->f.z)};
+    const Vec3s f = vec3s_splat(sphere->f);
     unsigned apart = 0;
     if (!beam->planes.has_rows) {
         tile_set_rows(&beam->planes, beam->tile);
     }
     for (int i = 0; i < ROWS; i += DOUBLES) {
-        const Doubles normal[3] = {doubles_load(&beam->planes.row_normal[0][i]), doubles_load(&beam->planes.row_normal[1][i]),
-                                   doubles_load(&beam->planes.row_normal[2][i])};
+        Vec3s normal = vec3s_load(beam->planes.row_normal, i);
         Doubles reach = sphere->distance * doubles_load(&beam->planes.row_spread[i]) + sphere->radius;
         apart |= (planes_apart(f, normal, reach) | doubles_ge(doubles_splat(sphere->nearest), doubles_load(&beam->row_limit[i])))
                  << i;
@@ -183,19 +173,13 @@ static unsigned beam_rows(TileBeam *beam, const TileSphere *sphere)
 static void row_test(const TileSphere *sphere, TileBeam *beam, unsigned begin, RowHits *row)
 {
     const SphereTile *tile = beam->tile;
+    const Vec3s f = vec3s_splat(sphere->f);
+    const Doubles radius_squared = doubles_splat(sphere->ball.radius_squared), c = doubles_splat(sphere->c);
     row->nearest = row->other = row->doubtful = 0;
     for (unsigned i = 0; i < TILE_ROW; i += DOUBLES) {
         unsigned at = begin + i;
-        Doubles dx = doubles_load(&tile->direction[0][at]);
-        Doubles dy = doubles_load(&tile->direction[1][at]);
-        Doubles dz = doubles_load(&tile->direction[2][at]);
-        Doubles t_middle = -(sphere->f.x * doubles_load(&tile->direction_over_length2[0][at]) +
-                             sphere->f.y * doubles_load(&tile->direction_over_length2[1][at]) +
-                             sphere->f.z * doubles_load(&tile->direction_over_length2[2][at]));
-        Doubles lx = sphere->f.x + t_middle * dx;
-        Doubles ly = sphere->f.y + t_middle * dy;
-        Doubles lz = sphere->f.z + t_middle * dz;
-        Doubles discriminant = sphere->ball.radius_squared - (lx * lx + ly * ly + lz * lz);
+        SphereRays rays = sphere_tile_rays(tile, at);
+        Doubles t_middle, discriminant = spheres_discriminant(&rays, f, radius_squared, &t_middle);
         Doubles before = doubles_load(&beam->hits->t[at]);
         Doubles last = before + SPHERE_ROOT_SLACK * before;
         // No root is nearer than this, with a margin far above what rounding does to it.
@@ -205,10 +189,7 @@ static void row_test(const TileSphere *sphere, TileBeam *beam, unsigned begin, R
         if (!possible) {
             continue;
         }
-        Doubles inverse_square = doubles_load(&tile->inverse_square[at]);
-        Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * inverse_square);
-        Doubles near_side = fabs(sphere->c) * inverse_square / far_side;
-        Doubles root = sphere->c > 0.0 ? near_side : doubles_if_negative(t_middle, near_side, far_side);
+        Doubles root = spheres_root(t_middle, discriminant, c, rays.inverse_square);
         unsigned ahead = doubles_ge(t_middle, doubles_splat(0.0));
         possible &= sphere->c >= sphere->uncertainty ? ahead : ~0u;
         unsigned certain =
@@ -341,20 +322,17 @@ RT_SELDOM void beam_refine_exact(const TileBeam *beam, unsigned i)
 static void beam_refine(const TileBeam *beam)
 {
     const SphereTile *tile = beam->tile;
-    const Doubles origin[3] = {doubles_splat(tile->origin.x), doubles_splat(tile->origin.y),
-                               doubles_splat(tile->origin.z)};
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
         unsigned approximate = (unsigned)(beam->approximate >> at) & ((1u << DOUBLES) - 1);
         if (!approximate) {
             continue;
         }
-        const Doubles direction[3] = {doubles_load(&tile->direction[0][at]), doubles_load(&tile->direction[1][at]),
-                                      doubles_load(&tile->direction[2][at])};
+        const SphereRays rays = sphere_tile_rays(tile, at);
         DoublesMask shape = *(const DoublesMask *)&beam->shape[at], is_approximate = doubles_bits_mask(approximate);
         Balls balls =
             balls_gather(beam->table, (is_approximate & shape) | (~is_approximate & shape[__builtin_ctz(approximate)]));
         Doubles before = doubles_load(&beam->hits->t[at]), root = before;
-        unsigned certain = roots_refine(origin, direction, doubles_load(&tile->inverse_square[at]), &balls, &root);
+        unsigned certain = spheres_step(&rays, &balls, &root);
         doubles_store(&beam->hits->t[at], doubles_choose(is_approximate, root, before));
         for (approximate &= ~certain; RT_UNLIKELY(approximate); approximate &= approximate - 1) {
             beam_refine_exact(beam, at + (unsigned)__builtin_ctz(approximate));

@@ -106,9 +106,9 @@ RT_ALWAYS_INLINE DoubleWords torus_lanes_height(const TorusLanes *torus, const D
     const Doubles zero = doubles_splat(0.0);
     DoubleWords x = double_words_along(f[0], d[0], t), y = double_words_along(f[1], d[1], t);
     DoubleWords z = double_words_along(f[2], d[2], t);
-    DoubleWords rho = double_words_sqrt(double_words_add(double_words_square(x), double_words_square(z)));
+    DoubleWords rho = double_words_sqrt(double_words_add(double_words_mul(x, x), double_words_mul(z, z)));
     DoubleWords from = double_words_add(rho, (DoubleWords){doubles_splat(-torus->major), zero});
-    DoubleWords sum = double_words_add(double_words_square(from), double_words_square(y));
+    DoubleWords sum = double_words_add(double_words_mul(from, from), double_words_mul(y, y));
     DoubleWords minor2 = two_products(doubles_splat(torus->minor), doubles_splat(torus->minor));
     return double_words_add(sum, (DoubleWords){-minor2.hi, -minor2.lo});
 }

@@ -182,53 +182,56 @@ static void try_kinds(const InternTable *names, Tally *sums)
     tell(&tally, sums, "kinds of blocks");
 }
 
+// What a block of the kind wants before its properties.
+static const char *const arguments[KIND_COUNT] = {
+    [KIND_SPHERE] = "0, 1",
+    [KIND_PLANE] = "y, 1",
+    [KIND_LIGHT_SOURCE] = "0, 1",
+    [KIND_OBJECT] = "sphere { 0, 1 }",
+    [KIND_BACKGROUND] = "rgb 1",
+    [KIND_REFLECTION] = "1",
+    [KIND_UNION] = "sphere { 0, 1 } sphere { 0, 1 }",
+    [KIND_MERGE] = "sphere { 0, 1 } sphere { 0, 1 }",
+    [KIND_INTERSECTION] = "sphere { 0, 1 } sphere { 0, 1 }",
+    [KIND_DIFFERENCE] = "sphere { 0, 1 } sphere { 0, 1 }",
+    [KIND_BOX] = "0, 1",
+    [KIND_CYLINDER] = "0, y, 1",
+    [KIND_CONE] = "0, 1, y, 0",
+    [KIND_DISC] = "0, y, 1",
+    [KIND_TRIANGLE] = "0, x, y",
+    [KIND_SMOOTH_TRIANGLE] = "0, z, x, z, y, z",
+    [KIND_TORUS] = "2, 1",
+    [KIND_QUADRIC] = "1, 0, 0, -1",
+    [KIND_BLOB] = "threshold 0.5 sphere { 0, 1, 1 }",
+    [KIND_ISOSURFACE] = "function { x }",
+    [KIND_CUBIC] = "<1, 0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,-1>",
+    [KIND_QUARTIC] = "<1, 0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,-1>",
+    [KIND_POLY] = "2, <1, 0, 0, 0, 1, 0, 0, 1, 0, -1>",
+    [KIND_PRISM] = "linear_spline 0, 1, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
+    [KIND_LATHE] = "linear_spline 2, <0, 0>, <1, 1>",
+    [KIND_SUPERELLIPSOID] = "<1, 1>",
+    [KIND_SPHERE_SWEEP] = "linear_spline 2, 0, 1, x, 1",
+    [KIND_JULIA_FRACTAL] = "<0, 0, 0.5, 0>",
+    [KIND_SOR] = "4, <0, 0>, <1, 0>, <1, 1>, <0, 1>",
+    [KIND_POLYGON] = "4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
+    [KIND_MESH] = "triangle { 0, x, y }",
+    [KIND_BICUBIC_PATCH] = "type 0 0, x, 2*x, 3*x, y, x+y, 2*x+y, 3*x+y, 2*y, x+2*y, 2*x+2*y, 3*x+2*y, 3*y, x+3*y, "
+                           "2*x+3*y, 3*x+3*y",
+    [KIND_HEIGHT_FIELD] = "function 2, 2 { x }",
+    [KIND_MESH2] = "vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> }",
+    [KIND_BLOB_BALL] = "0, 1, 1",
+    [KIND_BLOB_ROD] = "0, x, 1, 1",
+};
+
+// What blocks stand in that do so in others only.
+static const char *const arounds[KIND_COUNT] = {
+    [KIND_REFLECTION] = "finish {", [KIND_PATTERN] = "function {", [KIND_IRID] = "finish {",
+    [KIND_WARP] = "pigment { bozo", [KIND_BLOB_BALL] = "blob {",   [KIND_BLOB_ROD] = "blob {",
+    [KIND_IMAGE_PATTERN] = "pigment {", [KIND_BUMP_MAP] = "normal {", [KIND_MATERIAL_MAP] = "texture {",
+};
+
 static void try_properties(const InternTable *names, Tally *sums)
 {
-    static const char *const arguments[KIND_COUNT] = {
-        [KIND_SPHERE] = "0, 1",
-        [KIND_PLANE] = "y, 1",
-        [KIND_LIGHT_SOURCE] = "0, 1",
-        [KIND_OBJECT] = "sphere { 0, 1 }",
-        [KIND_BACKGROUND] = "rgb 1",
-        [KIND_REFLECTION] = "1",
-        [KIND_UNION] = "sphere { 0, 1 } sphere { 0, 1 }",
-        [KIND_MERGE] = "sphere { 0, 1 } sphere { 0, 1 }",
-        [KIND_INTERSECTION] = "sphere { 0, 1 } sphere { 0, 1 }",
-        [KIND_DIFFERENCE] = "sphere { 0, 1 } sphere { 0, 1 }",
-        [KIND_BOX] = "0, 1",
-        [KIND_CYLINDER] = "0, y, 1",
-        [KIND_CONE] = "0, 1, y, 0",
-        [KIND_DISC] = "0, y, 1",
-        [KIND_TRIANGLE] = "0, x, y",
-        [KIND_SMOOTH_TRIANGLE] = "0, z, x, z, y, z",
-        [KIND_TORUS] = "2, 1",
-        [KIND_QUADRIC] = "1, 0, 0, -1",
-        [KIND_BLOB] = "threshold 0.5 sphere { 0, 1, 1 }",
-        [KIND_ISOSURFACE] = "function { x }",
-        [KIND_CUBIC] = "<1, 0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,-1>",
-        [KIND_QUARTIC] = "<1, 0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,-1>",
-        [KIND_POLY] = "2, <1, 0, 0, 0, 1, 0, 0, 1, 0, -1>",
-        [KIND_PRISM] = "linear_spline 0, 1, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
-        [KIND_LATHE] = "linear_spline 2, <0, 0>, <1, 1>",
-        [KIND_SUPERELLIPSOID] = "<1, 1>",
-        [KIND_SPHERE_SWEEP] = "linear_spline 2, 0, 1, x, 1",
-        [KIND_JULIA_FRACTAL] = "<0, 0, 0.5, 0>",
-        [KIND_SOR] = "4, <0, 0>, <1, 0>, <1, 1>, <0, 1>",
-        [KIND_POLYGON] = "4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
-        [KIND_MESH] = "triangle { 0, x, y }",
-        [KIND_BICUBIC_PATCH] = "type 0 0, x, 2*x, 3*x, y, x+y, 2*x+y, 3*x+y, 2*y, x+2*y, 2*x+2*y, 3*x+2*y, 3*y, x+3*y, "
-                               "2*x+3*y, 3*x+3*y",
-        [KIND_HEIGHT_FIELD] = "function 2, 2 { x }",
-        [KIND_MESH2] = "vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> }",
-        [KIND_BLOB_BALL] = "0, 1, 1",
-        [KIND_BLOB_ROD] = "0, x, 1, 1",
-    };
-    static const char *const arounds[KIND_COUNT] = {
-        // blocks that stand in others only
-        [KIND_REFLECTION] = "finish {", [KIND_PATTERN] = "function {", [KIND_IRID] = "finish {",
-        [KIND_WARP] = "pigment { bozo", [KIND_BLOB_BALL] = "blob {",   [KIND_BLOB_ROD] = "blob {",
-        [KIND_IMAGE_PATTERN] = "pigment {", [KIND_BUMP_MAP] = "normal {", [KIND_MATERIAL_MAP] = "texture {",
-    };
     Tally tally = {0};
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaBlock *schema = schema_kind((SchemaKind)kind);

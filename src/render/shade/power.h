@@ -1,4 +1,4 @@
-// Powers of light: one function that gives the same bits on every machine where it can.
+// Powers of light, with the same bits on every machine where that can be.
 //
 // Turns a number and an exponent into a number; knows nothing of what they mean.
 //
@@ -7,25 +7,25 @@
 #define RENDER_SHADE_POWER_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "base/attributes.h"
+#include "math/lane_double.h"
+#include "render/shade/power.inc"
 
-// base^exponent, by multiplications for whole exponents, so that the bits do not depend on a machine's pow.
+// Whether an exponent is one for multiplications.
+RT_ALWAYS_INLINE bool power_is_whole(double exponent)
+{
+    return exponent >= 0.0 && exponent <= 4096.0 && exponent == (double)(int)exponent;
+}
+
+// base^exponent.
 RT_ALWAYS_INLINE double shade_power(double base, double exponent)
 {
     if (exponent == 1.0) {
         return base;
     }
-    if (!(exponent >= 0.0 && exponent <= 4096.0 && exponent == (double)(int)exponent)) {
-        return pow(base, exponent);
-    }
-    double result = 1.0;
-    for (unsigned n = (unsigned)exponent; n; n >>= 1, base *= base) {
-        if (n & 1) {
-            result *= base;
-        }
-    }
-    return result;
+    return power_is_whole(exponent) ? power_whole(base, (unsigned)exponent) : pow(base, exponent);
 }
 
 #endif

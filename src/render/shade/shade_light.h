@@ -2,7 +2,7 @@
 //
 // Everything here is always-inline and takes the kernel's features as a constant. The lighting model is the scene
 // language's, as its manual describes it and as measured against it; docs/language.md, "Lighting model", has the
-// formulas.
+// formulas. What is the same for some points at once stands in render/shade/lighting.inc.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SHADE_SHADE_LIGHT_H
@@ -18,6 +18,9 @@
 #include "render/shade/light_grid.h"
 #include "render/surface/texture.h"
 #include "trace/query_surface.h"
+
+#include "math/lane_double.h"
+#include "render/shade/lighting.inc"
 
 // What reaches a point of the first lights: found once for all layers of what is seen there.
 enum { SHADE_ARRIVED_MOST = 8 };
@@ -297,7 +300,7 @@ RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const Shad
 // What of a light reaches the point, by colour: all would be `arriving`. Where an area is drawn from by chance, each
 // layer draws for itself.
 RT_ALWAYS_INLINE Rgb shade_arrived(const Prepared *p, unsigned features, const PreparedLight *light,
-                                   const ShadingPoint *at, Rgb arriving, Vec3 towards, double distance,
+                                   const ShadingPoint *at, const LightAim *aim, Rgb arriving,
                                    RenderStatistics *statistics)
 {
     size_t number = (size_t)(light - p->lights);
@@ -309,8 +312,8 @@ RT_ALWAYS_INLINE Rgb shade_arrived(const Prepared *p, unsigned features, const P
     uint32_t blocker = NO_BLOCKER;
     Rgb share = is_area
                     ? shade_area(p, features, at, light, arriving, statistics)
-                    : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, towards, distance,
-                                       &blocker, statistics);
+                    : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, aim->towards,
+                                       aim->distance, &blocker, statistics);
     if (is_kept) {
         at->arrived->known |= UINT32_C(1) << number;
         at->arrived->share[number] = share;
@@ -323,14 +326,13 @@ RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const Sha
 {
     double sum = 0.0;
     if (finish->phong > 0.0) {
-        double cosine = vec3_dot(vec3_reflect(at->direction, at->normal), towards);
+        double cosine = phong_cosine(at->direction, at->normal, towards);
         if (cosine > 0.0) {
             sum += finish->phong * shade_power(cosine, finish->phong_size);
         }
     }
     if (finish->specular > 0.0) {
-        Vec3 halfway = vec3_sub(towards, at->direction);
-        double cosine = vec3_dot(halfway, at->normal) / vec3_length(halfway);
+        double cosine = specular_cosine(at->direction, at->normal, towards);
         if (cosine > 0.0) {
             sum += finish->specular * shade_power(cosine, finish->shininess);
         }
@@ -372,10 +374,8 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
                                  const PreparedLight *light, const ShadingPoint *at, RenderStatistics *statistics)
 {
     const PreparedFinish *finish = material->finish;
-    Vec3 offset = vec3_sub(light->position, at->point);
-    double distance = light->parallel ? vec3_dot(offset, light->towards) : vec3_length(offset);
-    Vec3 towards = light->parallel ? light->towards : vec3_scale(1.0 / distance, offset);
-    double cosine = vec3_dot(at->normal, towards);
+    LightAim aim = light_aim(light, at->point, at->normal);
+    double cosine = aim.cosine;
     bool front = cosine > 0.0;
     bool back = (features & RENDER_BRILLIANCE) && cosine < 0.0 && finish->diffuse_back > 0.0;
     if (!(front || back) || !shade_takes_light(finish, material->opaque)) {
@@ -383,15 +383,15 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     }
     Rgb arriving = light->colour;
     if ((features & RENDER_LIGHTS) && !light->is_plain) {
-        double strength = light_strength(light, offset, distance);
+        double strength = light_strength(light, aim.offset, aim.distance);
         if (!(strength > 0.0)) {
             return rgb_grey(0.0);
         }
         arriving = rgb_scale(strength, arriving);
     }
     // Beyond the plane of a parallel light nothing throws a shadow.
-    if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
-        Rgb share = shade_arrived(p, features, light, at, arriving, towards, distance, statistics);
+    if ((features & RENDER_SHADOWS) && !light->shadowless && aim.distance > 0.0) {
+        Rgb share = shade_arrived(p, features, light, at, &aim, arriving, statistics);
         if (rgb_is_black(share)) {
             return share;
         }
@@ -399,15 +399,18 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     }
     double falloff = features & RENDER_BRILLIANCE ? shade_power(fabs(cosine), finish->brilliance) : cosine;
     double diffuse = back ? finish->diffuse_back : finish->diffuse;
-    Rgb sum = rgb_scale(falloff, rgb_scale(diffuse, material->opaque));
+    Rgb opaque = material->opaque;
+    Rgb sum = rgb(lit_diffusely(falloff, diffuse, opaque.red), lit_diffusely(falloff, diffuse, opaque.green),
+                  lit_diffusely(falloff, diffuse, opaque.blue));
     if ((features & RENDER_TEXTURES) && finish->crand > 0.0 && diffuse > 0.0) {
         sum = rgb_add_scaled(sum, -finish->crand * shade_grain(light, at, material->layer), material->pigment);
     }
     if ((features & RENDER_HIGHLIGHTS) && finish->shines && front && !light->shadowless) {
-        double shine = shade_highlights(finish, at, towards);
+        double shine = shade_highlights(finish, at, aim.towards);
         Rgb tint = finish->metallic > 0.0 ? shade_metallic(features, finish->metallic, material->pigment, cosine)
                                             : rgb_grey(1.0);
-        sum = rgb_add_scaled(sum, shine, tint);
+        sum = rgb(lit_shiny(sum.red, shine, tint.red), lit_shiny(sum.green, shine, tint.green),
+                  lit_shiny(sum.blue, shine, tint.blue));
     }
     if ((features & RENDER_TEXTURES) && finish->irid > 0.0) {
         sum = rgb_mul(sum, shade_thin_layer(p, finish, at, fabs(cosine)));

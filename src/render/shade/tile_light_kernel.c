@@ -8,6 +8,11 @@
 #include "render/shade/shade_light.h"
 #include "render/shade/tile_light.h"
 #include "trace/simd.h"
+#include "trace/vec3s.h"
+
+#include "trace/lane_doubles.h"
+#include "render/shade/lighting.inc"
+#include "render/shade/power.inc"
 
 static uint64_t tile_all(const LightTile *tile)
 {
@@ -27,33 +32,19 @@ static uint64_t tile_backs(const LightTile *tile)
 static uint64_t tile_aim(LightTile *tile, const PreparedLight *light)
 {
     const TileSurfaces *surfaces = &tile->surfaces;
-    const double position[3] = {light->position.x, light->position.y, light->position.z};
-    const double ahead[3] = {light->towards.x, light->towards.y, light->towards.z};
     uint64_t before = 0, front = 0, behind = 0;
     tile->rays.end = light->position;
     tile->rays.aside = 0.0;
     Doubles farthest = doubles_splat(0.0);
     for (int i = 0; i < surfaces->count; i += DOUBLES) {
-        Doubles offset[3], towards[3];
-        for (int axis = 0; axis < 3; axis++) {
-            offset[axis] = position[axis] - doubles_load(&surfaces->point[axis][i]);
-        }
-        Doubles distance = light->parallel
-                               ? offset[0] * ahead[0] + offset[1] * ahead[1] + offset[2] * ahead[2]
-                               : doubles_sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-        Doubles shrink = 1.0 / distance;
-        for (int axis = 0; axis < 3; axis++) {
-            towards[axis] = light->parallel ? doubles_splat(ahead[axis]) : shrink * offset[axis];
-            doubles_store(&tile->rays.towards[axis][i], towards[axis]);
-        }
-        Doubles cosine = doubles_load(&tile->normal[0][i]) * towards[0] + doubles_load(&tile->normal[1][i]) * towards[1] +
-                         doubles_load(&tile->normal[2][i]) * towards[2];
-        doubles_store(&tile->rays.distance[i], distance);
-        farthest = doubles_max(distance, farthest);
-        doubles_store(&tile->cosine[i], cosine);
-        before |= (uint64_t)doubles_gt(distance, doubles_splat(0.0)) << i;
-        front |= (uint64_t)doubles_gt(cosine, doubles_splat(0.0)) << i;
-        behind |= (uint64_t)doubles_gt(doubles_splat(0.0), cosine) << i;
+        LightAims aim = lights_aim(light, vec3s_load(surfaces->point, i), vec3s_load(tile->normal, i));
+        vec3s_store(tile->rays.towards, i, aim.towards);
+        doubles_store(&tile->rays.distance[i], aim.distance);
+        doubles_store(&tile->cosine[i], aim.cosine);
+        farthest = doubles_max(aim.distance, farthest);
+        before |= (uint64_t)doubles_gt(aim.distance, doubles_splat(0.0)) << i;
+        front |= (uint64_t)doubles_gt(aim.cosine, doubles_splat(0.0)) << i;
+        behind |= (uint64_t)doubles_gt(doubles_splat(0.0), aim.cosine) << i;
     }
     tile->rays.farthest = doubles_greatest(farthest);
     uint64_t all = tile_all(tile);
@@ -62,26 +53,20 @@ static uint64_t tile_aim(LightTile *tile, const PreparedLight *light)
     return (front & all) | (behind ? behind & tile_backs(tile) : 0);
 }
 
-// shade_power of each. A whole exponent below 2^12 is taken by multiplications.
+// shade_power of each.
 static void tile_power(double base[TILE_RAYS], int count, double exponent)
 {
     if (exponent == 1.0) {
         return;
     }
-    if (!(exponent >= 0.0 && exponent <= 4096.0 && exponent == (double)(int)exponent)) {
+    if (!power_is_whole(exponent)) {
         for (int i = 0; i < count; i++) {
             base[i] = shade_power(base[i], exponent);
         }
         return;
     }
     for (int i = 0; i < count; i += DOUBLES) {
-        Doubles result = doubles_splat(1.0), square = doubles_load(&base[i]);
-        for (unsigned n = (unsigned)exponent; n; n >>= 1, square *= square) {
-            if (n & 1) {
-                result *= square;
-            }
-        }
-        doubles_store(&base[i], result);
+        doubles_store(&base[i], powers_whole(doubles_load(&base[i]), (unsigned)exponent));
     }
 }
 
@@ -100,21 +85,9 @@ static void tile_highlights(const LightTile *tile, const PreparedFinish *finish,
             continue;
         }
         for (int i = 0; i < count; i += DOUBLES) {
-            Doubles d[3], n[3], l[3];
-            for (int axis = 0; axis < 3; axis++) {
-                d[axis] = doubles_load(&surfaces->direction[axis][i]);
-                n[axis] = doubles_load(&tile->normal[axis][i]);
-                l[axis] = doubles_load(&tile->rays.towards[axis][i]);
-            }
-            Doubles of;
-            if (kind == 0) {
-                Doubles twice = -2.0 * (d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);
-                of = (d[0] + twice * n[0]) * l[0] + (d[1] + twice * n[1]) * l[1] + (d[2] + twice * n[2]) * l[2];
-            } else {
-                Doubles h[3] = {l[0] - d[0], l[1] - d[1], l[2] - d[2]};
-                of = (h[0] * n[0] + h[1] * n[1] + h[2] * n[2]) /
-                     doubles_sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
-            }
+            Vec3s d = vec3s_load(surfaces->direction, i), n = vec3s_load(tile->normal, i);
+            Vec3s l = vec3s_load(tile->rays.towards, i);
+            Doubles of = kind == 0 ? phong_cosines(d, n, l) : specular_cosines(d, n, l);
             doubles_store(&cosine[i], of);
         }
         uint64_t ahead = 0;
@@ -174,11 +147,10 @@ static void tile_add_finish(LightTile *tile, const PreparedLight *light, const P
         DoublesMask front = cosine > 0.0;
         Doubles diffuse = doubles_choose(front, doubles_splat(finish->diffuse), doubles_splat(finish->diffuse_back));
         for (int k = 0; k < 3; k++) {
-            Doubles sum = doubles_load(&falloff[i]) * (diffuse * doubles_load(&tile->diffuse[k][i]));
+            Doubles sum = lit_diffusely_all(doubles_load(&falloff[i]), diffuse, doubles_load(&tile->diffuse[k][i]));
             if (shines) {
-                Doubles spot = doubles_load(&shine[i]);
-                spot = finish->metallic > 0.0 ? spot * doubles_load(&tint[k][i]) : spot;
-                sum = doubles_choose(front, sum + spot, sum);
+                Doubles metal = finish->metallic > 0.0 ? doubles_load(&tint[k][i]) : doubles_splat(1.0);
+                sum = doubles_choose(front, lit_shiny_all(sum, doubles_load(&shine[i]), metal), sum);
             }
             Doubles before = doubles_load(&tile->light[k][i]);
             Doubles arriving = doubles_splat(colour[k]);
@@ -213,19 +185,8 @@ static void tile_add(LightTile *tile, const PreparedLight *light, uint64_t lit)
 static void tile_mirror(const LightTile *tile, double mirrored[3][TILE_RAYS])
 {
     for (int i = 0; i < tile->surfaces.count; i += DOUBLES) {
-        Doubles d[3], n[3], r[3];
-        for (int axis = 0; axis < 3; axis++) {
-            d[axis] = doubles_load(&tile->surfaces.direction[axis][i]);
-            n[axis] = doubles_load(&tile->normal[axis][i]);
-        }
-        Doubles twice = -2.0 * (d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);
-        for (int axis = 0; axis < 3; axis++) {
-            r[axis] = d[axis] + twice * n[axis];
-        }
-        Doubles shrink = 1.0 / doubles_sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-        for (int axis = 0; axis < 3; axis++) {
-            doubles_store(&mirrored[axis][i], shrink * r[axis]);
-        }
+        Vec3s direction = vec3s_load(tile->surfaces.direction, i), normal = vec3s_load(tile->normal, i);
+        vec3s_store(mirrored, i, vec3s_normalize(vec3s_reflect(direction, normal)));
     }
 }
 
