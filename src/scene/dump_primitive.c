@@ -2,9 +2,12 @@
 // block that makes it.
 //
 // SPDX-License-Identifier: MIT
+#include <math.h>
+
 #include "scene/blob.h"
 #include "scene/corners.h"
 #include "scene/dump.h"
+#include "scene/mesh_field.h"
 #include "scene/primitive.h"
 
 const Texture *dump_fields_of(const Scene *scene, MaterialIndex material)
@@ -58,6 +61,37 @@ static void dump_form(const Scene *scene, const Primitive *primitive, TextBuffer
     }
 }
 
+// The number that times a factor is the one given: of those that are about it, one that was made so is found.
+static double before_factor(double value, double factor)
+{
+    double about = value / factor, low = about, high = about;
+    for (int i = 0; i < 2; i++) {
+        if (low * factor == value) {
+            return low;
+        }
+        if (high * factor == value) {
+            return high;
+        }
+        low = nextafter(low, -(double)INFINITY);
+        high = nextafter(high, (double)INFINITY);
+    }
+    return about;
+}
+
+// A field of heights is written in the unit cube.
+static Transform written_place(const Primitive *primitive)
+{
+    Transform place = primitive->to_world;
+    if (primitive_class(primitive->kind)->is_mesh && primitive->mesh.mesh->field) {
+        Vec3 size = mesh_field_size(primitive->mesh.mesh->field);
+        for (int i = 0; i < 3; i++) {
+            place.m[0][i] = before_factor(place.m[0][i], 1.0 / size.x);
+            place.m[2][i] = before_factor(place.m[2][i], 1.0 / size.z);
+        }
+    }
+    return place;
+}
+
 // Each word with a blank before or behind it.
 static void dump_words(bool is_inverse, uint8_t hidden, const char *before, const char *behind, TextBuffer *out)
 {
@@ -78,7 +112,8 @@ void dump_primitive(const Scene *scene, const Primitive *primitive, const uint32
     text_append(out, primitive->flags & PRIMITIVE_OPEN ? " open" : "");
     if (primitive->kind != PRIMITIVE_PLANE) {
         text_append(out, " matrix ");
-        dump_numbers(out, &primitive->to_world.m[0][0], 12);
+        Transform place = written_place(primitive);
+        dump_numbers(out, &place.m[0][0], 12);
     }
     dump_words(primitive->flags & PRIMITIVE_INVERSE, primitive->hidden, " ", "", out);
     if (primitive->flags & PRIMITIVE_UNSEEN) {

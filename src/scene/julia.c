@@ -15,7 +15,7 @@ static double square_of(const double h[4])
 void julia_complete(Julia *julia)
 {
     const double *n = julia->slice;
-    julia->radius = fmin(1.0 + sqrt(square_of(julia->p)), 2.0);
+    julia->radius = fmin(1.0 + sqrt(square_of(julia->p)), 2.0) + 1e-7;
     julia->fourth = julia->distance * sqrt(square_of(n)) / n[3];
     for (int i = 0; i < 3; i++) {
         julia->rise[i] = n[i] / n[3];
@@ -43,14 +43,13 @@ static void next(const Julia *julia, double h[4])
     h[3] = times * d + p[3];
 }
 
-// Where the first point of an orbit is outside of the ball the second one is, too, and is what POV-Ray goes by.
 bool julia_holds(const Julia *julia, Vec3 p, double *reach)
 {
-    double h[4], most = julia->radius * julia->radius, slope2 = 1.0;
+    double h[4], most = julia->radius * julia->radius + 1e-7, slope2 = 1.0;
     start(julia, p, h);
-    for (int i = 0; i < (int)julia->step_count || i < 2; i++) {
+    for (int i = 0; i < (int)julia->step_count; i++) {
         double square = square_of(h);
-        if (!(square <= most) && i > 0) {
+        if (!(square <= most)) {
             double estimate = log(square) / (julia->power * sqrt(slope2));
             *reach = isfinite(estimate) ? estimate : 0.0;
             return false;

@@ -2,7 +2,7 @@
 // asked for, h being the point in a space of four dimensions that `slice` cuts.
 //
 // A part's list of numbers is the structure Julia. The algebra is that of quaternions, f(h) is h² or h³. What bounds a
-// fractal is a ball of radius 1 + |p|, 2 at most, which orbits must not leave, either. Measured. Knows nothing of rays.
+// fractal is a ball of radius 1 + |p|, 2 at most, and 1e-7 more, which orbits must not leave, either. Measured. Knows nothing of rays.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_JULIA_H

@@ -19,9 +19,9 @@ enum {
     MESH_FACES_MOST = 1 << 28, // what a tree of them has room for
 };
 
-// The field of heights that a mesh is made of: vertices over a grid of columns in x and rows in z, each from 0 to 1,
-// with heights of 16 bits in y. What is below its surface or its water is inside, however deep, and nothing beside it
-// is.
+// The field of heights that a mesh is made of: vertices over a grid of columns in x and rows in z, each 1 from the
+// next, with heights of 16 bits, 0 to 1, in y. What is below its surface or its water is inside, however deep, and
+// nothing beside it is.
 typedef struct MeshField {
     uint32_t columns, rows; // each at least 2
     uint16_t *heights;      // of 65536; row by row from z = 0 on; owned
@@ -37,9 +37,9 @@ typedef struct Mesh {
     uint32_t (*face_normals)[3]; // three of the normals each, or MESH_FLAT; NULL: all are flat; may be `faces`
     uint32_t *face_textures;     // from 1 on; 0: that of the mesh; NULL: all have that
     uint32_t uv_count;
-    float (*uvs)[2];             // surface coordinates; NULL: all are 0
-    uint32_t (*face_uvs)[3];     // three of these each; may be `faces`
-    double (*uv_corners)[2];     // of a patch: what the coordinates of <0, 0>, <1, 0>, <1, 1>, <0, 1> become; NULL: those
+    float (*uvs)[2];         // surface coordinates; NULL: all are 0
+    uint32_t (*face_uvs)[3]; // three of these each; may be `faces`
+    double (*uv_corners)[2]; // of a patch: what the coordinates of <0, 0>, <1, 0>, <1, 1>, <0, 1> become; NULL: those
     Vec3 inside_vector;
     bool has_inside;  // what an odd number of faces is before, along inside_vector
     Vec3 low, high;   // of the vertices that faces have

@@ -59,9 +59,9 @@ void mesh_field_build(Mesh *mesh)
     for (uint32_t row = 0; row < field->rows; row++) {
         for (uint32_t column = 0; column < columns; column++) {
             float *vertex = mesh->vertices[(size_t)row * columns + column];
-            vertex[0] = (float)((double)column / (double)(columns - 1));
+            vertex[0] = (float)column;
             vertex[1] = (float)(height_at(field, column, row) / FIELD_HEIGHTS);
-            vertex[2] = (float)((double)row / (double)(field->rows - 1));
+            vertex[2] = (float)row;
         }
     }
     for (uint32_t row = 0; row + 1 < field->rows; row++) {
@@ -118,10 +118,9 @@ bool mesh_field_smooth(Mesh *mesh)
 }
 
 // A normal where a column, a row and a height are 1 each, in the field's own space.
-static Vec3 own_normal(const MeshField *field, Vec3 normal)
+static Vec3 own_normal(Vec3 normal)
 {
-    return vec3(normal.x * (double)(field->columns - 1), normal.y * FIELD_HEIGHTS,
-                normal.z * (double)(field->rows - 1));
+    return vec3(normal.x, normal.y * FIELD_HEIGHTS, normal.z);
 }
 
 static Vec3 face_normal(const MeshField *field, uint32_t column, uint32_t row, bool is_upper)
@@ -140,16 +139,16 @@ int mesh_field_normals(const MeshField *field, uint32_t face, Vec3 point, Vec3 n
 {
     uint32_t cell = face / 2, column = cell % (field->columns - 1), row = cell / (field->columns - 1);
     if (!field->normals) {
-        normals[0] = own_normal(field, face_normal(field, column, row, face & 1));
+        normals[0] = own_normal(face_normal(field, column, row, face & 1));
         weights[0] = 1.0;
         return 1;
     }
-    double x = within(point.x * (double)(field->columns - 1) - (double)column);
-    double z = within(point.z * (double)(field->rows - 1) - (double)row);
+    double x = within(point.x - (double)column);
+    double z = within(point.z - (double)row);
     for (uint32_t corner = 0; corner < 4; corner++) {
         uint32_t right = corner & 1, far = corner >> 1;
         const int16_t *kept = field->normals[(size_t)(row + far) * field->columns + column + right];
-        normals[corner] = own_normal(field, vec3((double)kept[0], (double)kept[1], (double)kept[2]));
+        normals[corner] = own_normal(vec3((double)kept[0], (double)kept[1], (double)kept[2]));
         weights[corner] = (right ? x : 1.0 - x) * (far ? z : 1.0 - z);
     }
     return 4;
@@ -157,19 +156,21 @@ int mesh_field_normals(const MeshField *field, uint32_t face, Vec3 point, Vec3 n
 
 // ---- inside
 
-bool mesh_field_is_over(Vec3 point)
+Vec3 mesh_field_size(const MeshField *field)
 {
-    return point.x >= 0.0 && point.x < 1.0 && point.z >= 0.0 && point.z < 1.0;
+    return vec3((double)(field->columns - 1), 1.0, (double)(field->rows - 1));
+}
+
+bool mesh_field_is_over(const MeshField *field, Vec3 point)
+{
+    Vec3 size = mesh_field_size(field);
+    return point.x >= 0.0 && point.x < size.x && point.z >= 0.0 && point.z < size.z;
 }
 
 double mesh_field_height(const MeshField *field, Vec3 point)
 {
-    double x = point.x * (double)(field->columns - 1), z = point.z * (double)(field->rows - 1);
-    uint32_t column = (uint32_t)x, row = (uint32_t)z;
-    column = column < field->columns - 1 ? column : field->columns - 2; // where the product was rounded up
-    row = row < field->rows - 1 ? row : field->rows - 2;
-    x -= (double)column;
-    z -= (double)row;
+    uint32_t column = (uint32_t)point.x, row = (uint32_t)point.z;
+    double x = point.x - (double)column, z = point.z - (double)row;
     bool is_upper = x + z >= 1.0;
     double base = height_at(field, column + is_upper, row + is_upper);
     double along_x = height_at(field, column + !is_upper, row + is_upper);
@@ -180,5 +181,5 @@ double mesh_field_height(const MeshField *field, Vec3 point)
 
 bool mesh_field_holds(const MeshField *field, Vec3 point)
 {
-    return mesh_field_is_over(point) && (point.y < field->water || point.y < mesh_field_height(field, point));
+    return mesh_field_is_over(field, point) && (point.y < field->water || point.y < mesh_field_height(field, point));
 }

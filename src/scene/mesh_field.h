@@ -1,7 +1,7 @@
 // Fields of heights: a mesh over a grid, with two triangles between each four heights.
 //
-// Their normals are computed from the heights, which are whole numbers, so that they do not suffer from vertices in
-// single precision; what is inside is known by one cell. Owns nothing. Knows nothing of where heights come from.
+// In its own space a column and a row are 1 each, so that vertices are exact in single precision. What is inside is
+// known by one cell. Owns nothing. Knows nothing of where heights come from.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_MESH_FIELD_H
@@ -24,8 +24,11 @@ void mesh_field_build(Mesh *mesh);
 // Gives a built one normals at its vertices. False when out of memory.
 bool mesh_field_smooth(Mesh *mesh) RT_MUST_CHECK;
 
+// The far corner of a field of height 1, which is that of the unit cube before it is scaled by this.
+Vec3 mesh_field_size(const MeshField *field);
+
 // Whether a point is over or below the field, and how high the field is there.
-bool mesh_field_is_over(Vec3 point);
+bool mesh_field_is_over(const MeshField *field, Vec3 point);
 double mesh_field_height(const MeshField *field, Vec3 point);
 // Whether a point of its space is inside: below the surface or below the water.
 bool mesh_field_holds(const MeshField *field, Vec3 point);

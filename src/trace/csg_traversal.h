@@ -340,13 +340,13 @@ typedef struct FieldWay {
     int enter_axis, leave_axis;
 } FieldWay;
 
-static void way_narrow(FieldWay *way, double origin, double direction, int axis)
+static void way_narrow(FieldWay *way, double size, double origin, double direction, int axis)
 {
     if (direction == 0.0) {
-        way->leave = origin >= 0.0 && origin < 1.0 ? way->leave : -(double)INFINITY;
+        way->leave = origin >= 0.0 && origin < size ? way->leave : -(double)INFINITY;
         return;
     }
-    double a = (0.0 - origin) / direction, b = (1.0 - origin) / direction;
+    double a = (0.0 - origin) / direction, b = (size - origin) / direction;
     double enter = a < b ? a : b, leave = a < b ? b : a;
     way->enter_axis = enter > way->enter ? axis : way->enter_axis;
     way->leave_axis = leave < way->leave ? axis : way->leave_axis;
@@ -354,11 +354,12 @@ static void way_narrow(FieldWay *way, double origin, double direction, int axis)
     way->leave = leave < way->leave ? leave : way->leave;
 }
 
-static FieldWay field_way(const Ray *object)
+static FieldWay field_way(const MeshField *field, const Ray *object)
 {
+    Vec3 size = mesh_field_size(field);
     FieldWay way = {-(double)INFINITY, (double)INFINITY, 0, 0};
-    way_narrow(&way, object->origin.x, object->direction.x, 0);
-    way_narrow(&way, object->origin.z, object->direction.z, 2);
+    way_narrow(&way, size.x, object->origin.x, object->direction.x, 0);
+    way_narrow(&way, size.z, object->origin.z, object->direction.z, 2);
     return way;
 }
 
@@ -392,7 +393,7 @@ static double field_water(const CsgTraversal *p, uint32_t index, double enter, d
     const Ray *object = &p->objects[index];
     double t = (field->water - object->origin.y) / object->direction.y;
     Vec3 point = vec3_add_scaled(object->origin, t, object->direction);
-    bool is_met = t > enter && t < leave && mesh_field_is_over(point) && mesh_field_height(field, point) < field->water;
+    bool is_met = t > enter && t < leave && mesh_field_is_over(field, point) && mesh_field_height(field, point) < field->water;
     return is_met && !side_is_past(p, index, t, 1) ? t : (double)INFINITY;
 }
 
@@ -402,7 +403,7 @@ static void traversal_field_begin(CsgTraversal *p, uint32_t index, MeshAhead *ah
     const PreparedPrimitive *primitive = traversal_primitive(p, index);
     const Ray *object = &p->objects[index];
     MeshCursor *cursor = &p->cursors[primitive->mesh.cursor];
-    FieldWay way = field_way(object);
+    FieldWay way = field_way(primitive->mesh.table->mesh->field, object);
     cursor->leave = way.leave;
     cursor->leave_axis = way.leave_axis;
     cursor->is_left = !(way.leave > way.enter) || side_is_past(p, index, way.leave, way.leave_axis);

@@ -10,6 +10,7 @@
 
 #include "eval/build/blocks.h"
 #include "math/extreme.h"
+#include "scene/mesh_field.h"
 #include "scene/polynomial.h"
 #include "scene/within.h"
 
@@ -219,7 +220,7 @@ static bool torus_box(const void *object, OwnBox *own)
 static void quadric_coefficients(const PolynomialDesc *quadric, double *to)
 {
     const Vec3 *squares = &quadric->squares, *products = &quadric->products, *linear = &quadric->linear;
-    const double all[] = {squares->x,  products->x, products->y, linear->x,  squares->y,
+    const double all[] = {squares->x,  products->x, products->y, linear->x, squares->y,
                           products->z, linear->y,   squares->z,  linear->z, quadric->constant};
     memcpy(to, all, sizeof all);
 }
@@ -343,19 +344,26 @@ static bool mesh_box(const void *object, OwnBox *own)
 static bool field_box(const void *object, OwnBox *own)
 {
     const Mesh *mesh = ((const MeshDesc *)object)->mesh;
-    own->low = mesh->low;
-    own->high = mesh->high;
-    own->low.y = greater_of(own->low.y, mesh->field->water);
+    own->low = vec3(0.0, greater_of(mesh->low.y, mesh->field->water), 0.0);
+    own->high = vec3(1.0, mesh->high.y, 1.0);
     return false;
+}
+
+static bool field_has(const void *object, Vec3 p, bool is_turned)
+{
+    const Mesh *mesh = ((const MeshDesc *)object)->mesh;
+    return mesh_holds(mesh, vec3_mul(mesh_field_size(mesh->field), p)) != is_turned;
 }
 
 static const char *field_form(const void *object, Primitive *primitive)
 {
     const Mesh *mesh = ((const MeshDesc *)object)->mesh;
+    Vec3 size = mesh_field_size(mesh->field);
     OwnBox box;
     (void)field_box(object, &box);
     primitive->kind = PRIMITIVE_MESH_SOLID;
-    primitive->mesh = (PrimitiveMesh){box.low, box.high, mesh, 0};
+    primitive->to_world = transform_scale(vec3(1.0 / size.x, 1.0, 1.0 / size.z));
+    primitive->mesh = (PrimitiveMesh){vec3_mul(size, box.low), vec3_mul(size, box.high), mesh, 0};
     return box.low.y > box.high.y ? "it is all below its water level" : NULL;
 }
 
@@ -385,7 +393,10 @@ static const ShapeClass classes[KIND_COUNT] = {
     [KIND_BLOB] = {.close = blob_close, .form = blob_form, .holds = blob_holds, .box = blob_box},
     [KIND_QUADRIC] = {.close = polynomial_close, .form = polynomial_form, .holds = quadric_holds, .box = quadric_box},
     [KIND_CUBIC] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
-    [KIND_QUARTIC] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
+    [KIND_QUARTIC] = {.close = polynomial_close,
+                      .form = polynomial_form,
+                      .holds = polynomial_holds,
+                      .box = endless_box},
     [KIND_POLY] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
     [KIND_ISOSURFACE] = {.close = isosurface_close,
                          .form = isosurface_form,
@@ -398,16 +409,14 @@ static const ShapeClass classes[KIND_COUNT] = {
     [KIND_SPHERE_SWEEP] = {.form = sweep_form, .holds = sweep_has, .box = sweep_box},
     [KIND_SOR] = {.form = sor_form, .holds = sor_has, .box = sor_box},
     [KIND_POLYGON] = {.is_flat = true, .form = polygon_form, .box = polygon_box},
-    [KIND_TRIANGLE] = {.is_flat = true,
-                       .form = triangle_form,
-                       .corners_at = offsetof(TriangleDesc, corners)},
+    [KIND_TRIANGLE] = {.is_flat = true, .form = triangle_form, .corners_at = offsetof(TriangleDesc, corners)},
     [KIND_SMOOTH_TRIANGLE] = {.is_flat = true,
                               .form = smooth_triangle_form,
                               .corners_at = offsetof(SmoothTriangleDesc, corners)},
     [KIND_MESH] = {.form = mesh_form, .has_inside = mesh_has_inside, .holds = mesh_has, .box = mesh_box},
     [KIND_MESH2] = {.form = mesh_form, .has_inside = mesh_has_inside, .holds = mesh_has, .box = mesh_box},
     [KIND_BICUBIC_PATCH] = {.is_flat = true, .box = bicubic_box}, // it is made by bicubic_make
-    [KIND_HEIGHT_FIELD] = {.form = field_form, .holds = mesh_has, .box = field_box},
+    [KIND_HEIGHT_FIELD] = {.form = field_form, .holds = field_has, .box = field_box},
 };
 
 const ShapeClass *shape_class(SchemaKind kind)
