@@ -383,6 +383,8 @@ RT_ALWAYS_INLINE bool primitive_lanes(const LanePrimitive *own, PrimitiveKind ki
         return curve_lanes(own, PRIMITIVE_TORUS, f, d, false, asked, lanes);
     case PRIMITIVE_POLYNOMIAL:
         return curve_lanes(own, PRIMITIVE_POLYNOMIAL, f, d, false, asked, lanes);
+    case PRIMITIVE_BLOB:
+        return curve_lanes(own, PRIMITIVE_BLOB, f, d, false, asked, lanes);
     default: return flat_lanes(own, kind, f, d, world, asked, lanes);
     }
 }

@@ -263,6 +263,9 @@ static void tile_primitive(ShapesTile *of, const PreparedPrimitive *primitive, c
     case PRIMITIVE_POLYNOMIAL:
         tile_primitive_kind(of, primitive, PRIMITIVE_POLYNOMIAL, box, may);
         break;
+    case PRIMITIVE_BLOB:
+        tile_primitive_kind(of, primitive, PRIMITIVE_BLOB, box, may);
+        break;
     default:
         tile_primitive_kind(of, primitive, PRIMITIVE_SMOOTH_TRIANGLE, box, may);
     }
