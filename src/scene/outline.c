@@ -330,22 +330,33 @@ static double clamped(double s)
     return s > 0.0 ? s < 1.0 ? s : 1.0 : 0.0; // NaN: 0
 }
 
+// The one of some places on a piece that is nearest to a point, if it is nearer than `s` is.
+static void nearest_of(const Piece *piece, OutlinePoint p, const double *places, unsigned count, double *s,
+                       double *least)
+{
+    for (unsigned i = 0; i < count; i++) {
+        double from = distance2(piece_at(piece, places[i]), p);
+        *s = from < *least ? places[i] : *s;
+        *least = from < *least ? from : *least;
+    }
+}
+
 // The parameter of the nearest point of a curved piece, where the point lies nearly on it: then a point of the piece
-// that has one coordinate with it is near.
+// that has one coordinate with it is near. That along which the piece is longer is asked first, and alone where what it
+// finds is as near as rounding.
 static double curve_nearest(const Piece *piece, OutlinePoint p)
 {
-    const double *q = piece->points;
+    const double *q = piece->points, *box = piece->box;
     const double u[4] = {q[0] - p.u, q[2] - p.u, q[4] - p.u, q[6] - p.u};
     const double v[4] = {q[1] - p.v, q[3] - p.v, q[5] - p.v, q[7] - p.v};
-    double candidates[2 + 2 * ROOTS_MOST] = {0.0, 1.0};
-    unsigned count = 2;
-    count += cubic_roots(u, candidates + count);
-    count += cubic_roots(v, candidates + count);
-    double s = 0.0, least = (double)INFINITY;
-    for (unsigned i = 0; i < count; i++) {
-        double from = distance2(piece_at(piece, candidates[i]), p);
-        s = from < least ? candidates[i] : s;
-        least = from < least ? from : least;
+    const double ends[2] = {0.0, 1.0};
+    double width = box[PIECE_HIGH] - box[PIECE_LOW], height = box[PIECE_HIGH + 1] - box[PIECE_LOW + 1];
+    double size = fmax(width, height), near = 0x1p-40 * size, roots[ROOTS_MOST], s = 0.0, least = (double)INFINITY;
+    bool is_wide = width >= height;
+    nearest_of(piece, p, roots, cubic_roots(is_wide ? u : v, roots), &s, &least);
+    if (!(least <= near * near)) {
+        nearest_of(piece, p, ends, 2, &s, &least);
+        nearest_of(piece, p, roots, cubic_roots(is_wide ? v : u, roots), &s, &least);
     }
     for (int i = 0; i < NEAREST_STEPS; i++) { // Gauss and Newton
         OutlinePoint at = piece_at(piece, s), along = piece_along(piece, s);
@@ -393,8 +404,12 @@ OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *
     uint32_t nearest_piece = 0;
     OutlinePoint nearest = p;
     *along = (OutlinePoint){1.0, 0.0};
+    const Place own = {p, 0x1p-40 * (fabs(p.u) + fabs(p.v))};
     for (int pass = 0; pass < 2; pass++) { // mostly what is near is in a piece's box, and no other box is as near
-        Place reached = {p, pass == 0 ? 0.0 : sqrt(least)}, own = {p, 0.0};
+        Place reached = {p, pass == 0 ? own.room : sqrt(least)};
+        if (reached.room < own.room) {
+            break; // all that is as near has been asked
+        }
         for (uint32_t i = 0; i < pieces; i++) {
             if (skips_group(list, stride, &i, is_beside_place, &reached)) {
                 continue;
