@@ -142,6 +142,18 @@ static inline bool is_beside_line(const double *box, const void *asked)
     return low[0] > line->high.u || high[0] < line->low.u || low[1] > line->high.v || high[1] < line->low.v;
 }
 
+// Whether the line's form has one sign at all control points of some pieces, however it is rounded there.
+static bool is_apart_from_line(const double *box, const void *asked)
+{
+    const OutlineLine *line = asked;
+    const double *low = box + PIECE_LOW, *high = box + PIECE_HIGH;
+    double a = fabs(line->a), c = fabs(line->c);
+    double twice = line->a * (low[0] + high[0]) + line->c * (low[1] + high[1]) + 2.0 * line->b;
+    double reach = a * (high[0] - low[0]) + c * (high[1] - low[1]);
+    double size = a * (fabs(low[0]) + fabs(high[0])) + c * (fabs(low[1]) + fabs(high[1])) + 2.0 * fabs(line->b);
+    return fabs(twice) > reach + 0x1p-46 * size;
+}
+
 // Whether the line passes an end of the piece so near that rounding decides on which side.
 static bool passes_end(const Piece *piece, const OutlineLine *line)
 {
@@ -158,8 +170,9 @@ uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoin
 {
     uint32_t stride = outline_stride(list), pieces = outline_piece_count(list), count = 0;
     OutlineAnswer found_so_far = OUTLINE_FAR;
+    BoxTest is_out = answer ? is_beside_line : is_apart_from_line; // a whole line is beside nothing
     for (uint32_t i = 0; i < pieces; i++) {
-        if (skips_group(list, stride, &i, is_beside_line, line)) {
+        if (skips_group(list, stride, &i, is_out, line)) {
             continue;
         }
         Piece piece = piece_of(list, stride, i);
