@@ -142,6 +142,18 @@ static inline bool is_beside_line(const double *box, const void *asked)
     return low[0] > line->high.u || high[0] < line->low.u || low[1] > line->high.v || high[1] < line->low.v;
 }
 
+// Whether the line's form has one sign at all control points of some pieces, however it is rounded there.
+static bool is_apart_from_line(const double *box, const void *asked)
+{
+    const OutlineLine *line = asked;
+    const double *low = box + PIECE_LOW, *high = box + PIECE_HIGH;
+    double a = fabs(line->a), c = fabs(line->c);
+    double twice = line->a * (low[0] + high[0]) + line->c * (low[1] + high[1]) + 2.0 * line->b;
+    double reach = a * (high[0] - low[0]) + c * (high[1] - low[1]);
+    double size = a * (fabs(low[0]) + fabs(high[0])) + c * (fabs(low[1]) + fabs(high[1])) + 2.0 * fabs(line->b);
+    return fabs(twice) > reach + 0x1p-46 * size;
+}
+
 // Whether the line passes an end of the piece so near that rounding decides on which side.
 static bool passes_end(const Piece *piece, const OutlineLine *line)
 {
@@ -158,8 +170,9 @@ uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoin
 {
     uint32_t stride = outline_stride(list), pieces = outline_piece_count(list), count = 0;
     OutlineAnswer found_so_far = OUTLINE_FAR;
+    BoxTest is_out = answer ? is_beside_line : is_apart_from_line; // a whole line is beside nothing
     for (uint32_t i = 0; i < pieces; i++) {
-        if (skips_group(list, stride, &i, is_beside_line, line)) {
+        if (skips_group(list, stride, &i, is_out, line)) {
             continue;
         }
         Piece piece = piece_of(list, stride, i);
@@ -330,22 +343,33 @@ static double clamped(double s)
     return s > 0.0 ? s < 1.0 ? s : 1.0 : 0.0; // NaN: 0
 }
 
+// The one of some places on a piece that is nearest to a point, if it is nearer than `s` is.
+static void nearest_of(const Piece *piece, OutlinePoint p, const double *places, unsigned count, double *s,
+                       double *least)
+{
+    for (unsigned i = 0; i < count; i++) {
+        double from = distance2(piece_at(piece, places[i]), p);
+        *s = from < *least ? places[i] : *s;
+        *least = from < *least ? from : *least;
+    }
+}
+
 // The parameter of the nearest point of a curved piece, where the point lies nearly on it: then a point of the piece
-// that has one coordinate with it is near.
+// that has one coordinate with it is near. That along which the piece is longer is asked first, and alone where what it
+// finds is as near as rounding.
 static double curve_nearest(const Piece *piece, OutlinePoint p)
 {
-    const double *q = piece->points;
+    const double *q = piece->points, *box = piece->box;
     const double u[4] = {q[0] - p.u, q[2] - p.u, q[4] - p.u, q[6] - p.u};
     const double v[4] = {q[1] - p.v, q[3] - p.v, q[5] - p.v, q[7] - p.v};
-    double candidates[2 + 2 * ROOTS_MOST] = {0.0, 1.0};
-    unsigned count = 2;
-    count += cubic_roots(u, candidates + count);
-    count += cubic_roots(v, candidates + count);
-    double s = 0.0, least = (double)INFINITY;
-    for (unsigned i = 0; i < count; i++) {
-        double from = distance2(piece_at(piece, candidates[i]), p);
-        s = from < least ? candidates[i] : s;
-        least = from < least ? from : least;
+    const double ends[2] = {0.0, 1.0};
+    double width = box[PIECE_HIGH] - box[PIECE_LOW], height = box[PIECE_HIGH + 1] - box[PIECE_LOW + 1];
+    double size = fmax(width, height), near = 0x1p-40 * size, roots[ROOTS_MOST], s = 0.0, least = (double)INFINITY;
+    bool is_wide = width >= height;
+    nearest_of(piece, p, roots, cubic_roots(is_wide ? u : v, roots), &s, &least);
+    if (!(least <= near * near)) {
+        nearest_of(piece, p, ends, 2, &s, &least);
+        nearest_of(piece, p, roots, cubic_roots(is_wide ? v : u, roots), &s, &least);
     }
     for (int i = 0; i < NEAREST_STEPS; i++) { // Gauss and Newton
         OutlinePoint at = piece_at(piece, s), along = piece_along(piece, s);
@@ -393,8 +417,12 @@ OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *
     uint32_t nearest_piece = 0;
     OutlinePoint nearest = p;
     *along = (OutlinePoint){1.0, 0.0};
+    const Place own = {p, 0x1p-40 * (fabs(p.u) + fabs(p.v))};
     for (int pass = 0; pass < 2; pass++) { // mostly what is near is in a piece's box, and no other box is as near
-        Place reached = {p, pass == 0 ? 0.0 : sqrt(least)}, own = {p, 0.0};
+        Place reached = {p, pass == 0 ? own.room : sqrt(least)};
+        if (reached.room < own.room) {
+            break; // all that is as near has been asked
+        }
         for (uint32_t i = 0; i < pieces; i++) {
             if (skips_group(list, stride, &i, is_beside_place, &reached)) {
                 continue;

@@ -11,6 +11,7 @@
 #ifndef TRACE_CURVE_LANES_H
 #define TRACE_CURVE_LANES_H
 
+#include "trace/blob_lanes.h"
 #include "trace/quartic_lanes.h"
 #include "trace/torus_lanes.h"
 
@@ -69,13 +70,6 @@ RT_ALWAYS_INLINE void curve_lanes_turn(const CurveLanes *curve, DoublesMask aske
     curve_lanes_step(curve, line->high, is_out, steps);
 }
 
-// What is known of some rays: those that may meet the solid ahead, those of which it is certain, and their first roots
-// with n·d there, n being the gradient for gradient_most.
-typedef struct CurveFirst {
-    unsigned possible, certain;
-    Doubles root, along;
-} CurveFirst;
-
 // `starts`: all start on the primitive, which is a curve, and leave it. False when all of `asked` are missed; nothing
 // else is set then.
 RT_ALWAYS_INLINE bool curve_lanes_first(const PreparedPrimitive *primitive, PrimitiveKind kind, bool starts,
@@ -83,6 +77,9 @@ RT_ALWAYS_INLINE bool curve_lanes_first(const PreparedPrimitive *primitive, Prim
 {
     CurveLanes curve;
     LineLanes *line = &curve.line;
+    if (kind == PRIMITIVE_BLOB) {
+        return blob_lanes_first(primitive->list.items, starts, f, d, asked, found);
+    }
     const DoublesMask none = {0};
     curve.kind = kind;
     if (kind == PRIMITIVE_TORUS) {

@@ -23,4 +23,11 @@ typedef struct LinePlace {
     DoublesMask is_told;
 } LinePlace;
 
+// What is known of some rays: those that may meet the solid ahead, those of which it is certain, and their first roots
+// with n·d there, n being the gradient for gradient_most.
+typedef struct CurveFirst {
+    unsigned possible, certain;
+    Doubles root, along;
+} CurveFirst;
+
 #endif

@@ -304,6 +304,8 @@ RT_ALWAYS_INLINE bool primitive_lanes(const LanePrimitive *own, PrimitiveKind ki
         return curve_lanes(own, PRIMITIVE_TORUS, rays, false, asked, lanes);
     case PRIMITIVE_POLYNOMIAL:
         return curve_lanes(own, PRIMITIVE_POLYNOMIAL, rays, false, asked, lanes);
+    case PRIMITIVE_BLOB:
+        return curve_lanes(own, PRIMITIVE_BLOB, rays, false, asked, lanes);
     default: return flat_lanes(own, kind, rays, asked, lanes);
     }
 }

@@ -79,23 +79,25 @@ static inline bool kind_has_lanes(PrimitiveKind kind)
 {
     const unsigned kinds = 1u << PRIMITIVE_SPHERE | 1u << PRIMITIVE_BOX | 1u << PRIMITIVE_CONE | 1u << PRIMITIVE_DISC |
                            1u << PRIMITIVE_TRIANGLE | 1u << PRIMITIVE_SMOOTH_TRIANGLE | 1u << PRIMITIVE_TORUS |
-                           1u << PRIMITIVE_POLYNOMIAL;
+                           1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_BLOB;
     return kinds >> kind & 1;
 }
 
 // Whether that is so by trace/curve_lanes.h, and then of which primitives of the kind: tori that do not go through
-// themselves and closed surfaces of order 4.
+// themselves, closed surfaces of order 4, and blobs.
 static inline bool kind_is_curve(PrimitiveKind kind)
 {
-    return kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL;
+    return kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL || kind == PRIMITIVE_BLOB;
 }
 
 static inline bool primitive_is_curve(const PreparedPrimitive *primitive)
 {
-    return primitive->kind == PRIMITIVE_TORUS
-               ? primitive->data[0].y <= primitive->data[0].x
-               : primitive->kind == PRIMITIVE_POLYNOMIAL && !prepared_is_endless(primitive) &&
-                     polynomial_order(primitive->list.items) == 4;
+    switch (primitive->kind) {
+    case PRIMITIVE_TORUS: return primitive->data[0].y <= primitive->data[0].x;
+    case PRIMITIVE_POLYNOMIAL:
+        return !prepared_is_endless(primitive) && polynomial_order(primitive->list.items) == 4;
+    default: return primitive->kind == PRIMITIVE_BLOB;
+    }
 }
 
 static inline bool primitive_has_lanes(const PreparedPrimitive *primitive)

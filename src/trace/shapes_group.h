@@ -59,7 +59,7 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
     }
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
-        if (has_lanes && left->kind != PRIMITIVE_POLYNOMIAL) {
+        if (has_lanes && left->kind != PRIMITIVE_POLYNOMIAL && left->kind != PRIMITIVE_BLOB) {
             RayLanes rays = lane_primitive_ray(&own, group->origin, group->direction, at);
             passed = own.slack.fixed / doubles_abs(start_along(left, primitive_side(from->start.shape), rays.f, rays.d));
         } else if (!left && is_straight) {
@@ -174,6 +174,8 @@ static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, c
         return group_primitive_kind(from, group, primitive, PRIMITIVE_TORUS, box, occluded, may);
     case PRIMITIVE_POLYNOMIAL:
         return group_primitive_kind(from, group, primitive, PRIMITIVE_POLYNOMIAL, box, occluded, may);
+    case PRIMITIVE_BLOB:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_BLOB, box, occluded, may);
     default:
         return group_primitive_kind(from, group, primitive, PRIMITIVE_TRIANGLE, box, occluded, may);
     }

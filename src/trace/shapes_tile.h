@@ -25,6 +25,7 @@ typedef struct ShapesTile {
     TileHits *hits;          // the same's
     uint64_t bounded, approximate; // the rays of whose first hit's span only a bound is known; whose root is a ball's
                                    // and approximate
+    uint64_t walking;        // the rays that the tree is walked for
     double far;              // of the rays' origin from 0
     double limit;            // up to where something may yet be the first of some ray
     _Alignas(64) double enter[TILE_RAYS]; // bounded_enter of a ShapeQuery
@@ -235,7 +236,7 @@ RT_ALWAYS_INLINE void tile_primitive_kind(ShapesTile *of, const PreparedPrimitiv
 // No ray meets the box before `nearest`.
 static void tile_primitive(ShapesTile *of, const PreparedPrimitive *primitive, const ItemBox *box, double nearest)
 {
-    uint64_t may = tile_open_rays(of->first, nearest);
+    uint64_t may = tile_open_rays(of->first, nearest) & of->walking;
     if ((primitive->hidden & HIDDEN_CAMERA) || !may) {
         return;
     }
@@ -260,6 +261,9 @@ static void tile_primitive(ShapesTile *of, const PreparedPrimitive *primitive, c
         break;
     case PRIMITIVE_POLYNOMIAL:
         tile_primitive_kind(of, primitive, PRIMITIVE_POLYNOMIAL, box, may);
+        break;
+    case PRIMITIVE_BLOB:
+        tile_primitive_kind(of, primitive, PRIMITIVE_BLOB, box, may);
         break;
     default:
         tile_primitive_kind(of, primitive, PRIMITIVE_SMOOTH_TRIANGLE, box, may);
@@ -345,6 +349,20 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
     return true;
 }
 
+// The rays of an octant; what has no sign is in both.
+static uint64_t tile_octant_rays(const SphereTile *tile, unsigned octant)
+{
+    const Doubles zero = doubles_splat(0.0);
+    uint64_t other = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
+            Doubles d = doubles_load(&tile->direction[axis][i]);
+            other |= (uint64_t)(octant >> axis & 1 ? doubles_gt(d, zero) : doubles_gt(zero, d)) << i;
+        }
+    }
+    return ~other;
+}
+
 // A walk for each octant into which there are rays. False when the tile cannot walk the tree, or had better not.
 static bool tile_tree(ShapesTile *of)
 {
@@ -361,6 +379,7 @@ static bool tile_tree(ShapesTile *of)
         if (!direction_octant(&range, octant, &least, &greatest)) {
             continue;
         }
+        of->walking = tile_octant_rays(of->tile, octant);
         if (bvh_walk_start_beam(&walk, &of->table->tree, of->tile->origin, 0.0, least, greatest, &is_too_far)
                 ? !tile_walk(of, &walk)
                 : is_too_far) {

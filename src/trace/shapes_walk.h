@@ -34,9 +34,15 @@ static __attribute__((noinline)) bool curve_first(const PreparedPrimitive *primi
     const Doubles f[3] = {doubles_splat(o.x), doubles_splat(o.y), doubles_splat(o.z)};
     const Doubles d[3] = {doubles_splat(v.x), doubles_splat(v.y), doubles_splat(v.z)};
     CurveFirst first = {0}; // gcc at -O1 does not see that what is missed is not read
-    *is_missed = primitive->kind == PRIMITIVE_TORUS
-                     ? !curve_lanes_first(primitive, PRIMITIVE_TORUS, false, f, d, 1, &first)
-                     : !curve_lanes_first(primitive, PRIMITIVE_POLYNOMIAL, false, f, d, 1, &first);
+    switch (primitive->kind) {
+    case PRIMITIVE_TORUS:
+        *is_missed = !curve_lanes_first(primitive, PRIMITIVE_TORUS, false, f, d, 1, &first);
+        break;
+    case PRIMITIVE_BLOB:
+        *is_missed = !curve_lanes_first(primitive, PRIMITIVE_BLOB, false, f, d, 1, &first);
+        break;
+    default: *is_missed = !curve_lanes_first(primitive, PRIMITIVE_POLYNOMIAL, false, f, d, 1, &first);
+    }
     if (*is_missed || !(first.certain & 1)) {
         return false;
     }

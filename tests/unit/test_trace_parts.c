@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/blob.h"
 #include "scene/polynomial.h"
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
@@ -21,7 +22,7 @@ typedef struct Family {
 enum { SIMPLE = 5 }; // so many of these have the families that name none
 static const PrimitiveKind simple[] = {
     PRIMITIVE_BOX,   PRIMITIVE_CONE,      PRIMITIVE_DISC, PRIMITIVE_TRIANGLE, PRIMITIVE_SMOOTH_TRIANGLE,
-    PRIMITIVE_TORUS, PRIMITIVE_POLYNOMIAL};
+    PRIMITIVE_TORUS, PRIMITIVE_POLYNOMIAL, PRIMITIVE_BLOB};
 
 static const Family kinds[] = {
     {"a few balls", 6, 0, 0, 0, 0, 1.0, 2.0, false, 0},
@@ -43,6 +44,8 @@ static const Family kinds[] = {
     {"all in one another", 50, 150, 10, 1, 5, 0.3, 2.0, true, 0},
     {"tori", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_TORUS},
     {"closed quartics", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_POLYNOMIAL},
+    {"blobs", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_BLOB},
+    {"blobs in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_BLOB},
     {"tori, closed quartics and cones", 0, 300, 20, 1, 5, 0.3, 3.0, false,
      1u << PRIMITIVE_TORUS | 1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_CONE},
     {"tori in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_TORUS},
@@ -75,11 +78,39 @@ static void set_quartic(Random *random, Primitive *primitive)
     polynomial_part(&(Numbers){*list, COUNT}, primitive);
 }
 
+// A blob of some balls and rods, some of them negative; of more components than lanes keep, too.
+static void set_blob(Random *random, Primitive *primitive)
+{
+    enum { FEW = 6, MANY = 60, NUMBERS = BLOB_HEAD + (2 * BLOB_NODE + BLOB_COMPONENT) * MANY };
+    static double lists[4][NUMBERS];
+    static Numbers blobs[4];
+    uint64_t own = random_bits(random) % 4;
+    if (!blobs[own].items) {
+        BlobComponent components[MANY];
+        uint32_t count = 0, most = own == 3 ? MANY : FEW;
+        const Transform as_it_is = transform_identity();
+        while (count < most) {
+            Vec3 base = random_point(random, 0.5), cap = random_point(random, 0.5);
+            bool is_rod = own > 0 && count % 3 == 1;
+            double strength = own == 2 && count % 5 == 4 ? -0.5 : random_between(random, 0.5, 1.5);
+            count += blob_component(&components[count], is_rod, base, cap, 0.5, strength, &as_it_is);
+        }
+        blobs[own] = blob_make(own == 3 ? 4.0 : 0.4, components, count, lists[own]);
+    }
+    const BlobNode *root = blob_of(blobs[own].items).nodes;
+    primitive->kind = PRIMITIVE_BLOB;
+    primitive->fixed[0] = vec3(root->low[0], root->low[1], root->low[2]);
+    primitive->fixed[1] = vec3(root->high[0], root->high[1], root->high[2]);
+    primitive->list = blobs[own];
+}
+
 static Primitive part_at(Random *random, PrimitiveKind kind, double size, Vec3 at)
 {
     Primitive primitive = random_primitive(random, kind, size);
     if (kind == PRIMITIVE_POLYNOMIAL) {
         set_quartic(random, &primitive);
+    } else if (kind == PRIMITIVE_BLOB) {
+        set_blob(random, &primitive);
     }
     primitive.to_world = transform_compose(primitive.to_world, transform_translate(at));
     if (!transform_invert(&primitive.to_world, &primitive.to_object)) {
@@ -112,7 +143,7 @@ static Primitive random_solid(Random *random, const Family *family, PrimitiveKin
     Primitive primitive = part_at(random, kind, size, random_point(random, family->spread));
     uint64_t bits = random_bits(random);
     bool has_inside = kind == PRIMITIVE_SPHERE || kind == PRIMITIVE_BOX || kind == PRIMITIVE_CONE ||
-                      kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL;
+                      kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL || kind == PRIMITIVE_BLOB;
     if (kind == PRIMITIVE_SMOOTH_TRIANGLE) {
         for (int i = 0; i < 3; i++) {
             primitive.data[i] = random_direction(random);
@@ -346,7 +377,7 @@ static Ray grazing_ray(Random *random, const Surface *surface, double away)
     return (Ray){vec3_add_scaled(at, -away, along), along};
 }
 
-// What lanes tell of a torus or quartic is what its own class says, of rays to it and about it, every second of which
+// What lanes tell of a torus, quartic or blob is what its own class says, of rays to it and about it, every second of which
 // grazes it.
 static void test_told(uint64_t seed, PrimitiveKind kind, double most)
 {
@@ -383,7 +414,10 @@ static void test_told(uint64_t seed, PrimitiveKind kind, double most)
     }
     tap_ok(wrong == 0 && worst <= most && met > 5000 && missed > 5000,
            "%s: what is told of rays at once is what their class says (%d met, %d missed, %d wrong, off by %.2g)",
-           kind == PRIMITIVE_TORUS ? "tori" : "closed quartics", met, missed, wrong, worst);
+           kind == PRIMITIVE_TORUS  ? "tori"
+           : kind == PRIMITIVE_BLOB ? "blobs"
+                                    : "closed quartics",
+           met, missed, wrong, worst);
 }
 
 int main(void)
@@ -391,6 +425,7 @@ int main(void)
     uint64_t seed = random_seed(NULL);
     test_told(seed, PRIMITIVE_TORUS, 0x1p-52);
     test_told(seed, PRIMITIVE_POLYNOMIAL, 0x1p-44);
+    test_told(seed, PRIMITIVE_BLOB, 0x1p-43);
     for (size_t i = 0; i < RT_COUNT_OF(kinds); i++) {
         test_family(seed + i, &kinds[i]);
     }
