@@ -271,6 +271,7 @@ static void line_polynomial(const Line *line, Polynomial *p)
     unsigned first = line->is_reduced;
     p->degree = DEGREE - first;
     p->refine = refine;
+    p->value = NULL;
     p->owner = line;
     for (unsigned i = 0; i <= p->degree; i++) {
         p->terms[i] = terms[i + first];
@@ -332,7 +333,8 @@ static bool is_below(const Line *line, double low, double high)
 
 static unsigned piece_roots(const Line *line, Polynomial *p, double low, double high, double roots[], int *sign)
 {
-    unsigned count = low == -high ? roots_find_about(p, high, roots, sign) : roots_find(p, low, high, roots, sign);
+    unsigned count =
+        low == -high ? roots_find_about(p, high, false, roots, sign) : roots_find(p, low, high, roots, sign);
     bool are_good = true, were_exact = p->is_exact;
     for (unsigned i = 0; i < count && !were_exact; i++) {
         if ((p->is_exact || !root_is_good(line, p, roots[i])) && !roots_refine(p, &roots[i])) {

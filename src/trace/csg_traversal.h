@@ -1,8 +1,8 @@
-// A CSG tree while a ray passes through it: the ray and the tree's leaves become crossings in order of t, and a count, for
-// each node, of the children that the ray is inside of.
+// A CSG tree while a ray passes through it: the ray and the tree's leaves become crossings in order of t, and a count,
+// for each node, of the children that the ray is inside of.
 //
-// csg.c decides by them what is seen. Owns nothing: the arrays are those of the one query that runs, csg_closest's. Knows
-// nothing of what hides a surface.
+// csg.c decides by them what is seen. Owns nothing: the arrays are those of the one query that runs, csg_closest's.
+// Knows nothing of what hides a surface.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_CSG_TRAVERSAL_H
@@ -414,8 +414,8 @@ static void traversal_field_begin(CsgTraversal *p, uint32_t index, MeshAhead *ah
     way.enter = is_entered ? 0.0 : way.enter;
     cursor->water = field_water(p, index, way.enter, way.leave);
     if (cursor->water < (double)INFINITY) {
-        *ahead = (MeshAhead){ahead->count + 1, less_of(ahead->first, cursor->water),
-                             greater_of(ahead->last, cursor->water)};
+        *ahead =
+            (MeshAhead){ahead->count + 1, less_of(ahead->first, cursor->water), greater_of(ahead->last, cursor->water)};
     }
     bool is_below = way_begins_below(primitive->mesh.table->mesh->field, object, way.enter, way.leave, ahead);
     p->is_inside[index] = cursor->is_inside = is_entered && is_below;
@@ -462,7 +462,9 @@ RT_ALWAYS_INLINE void traversal_primitive_begin(CsgTraversal *p, uint32_t index,
     }
     if (primitive_is_convex(primitive) ? !is_start || inward : !shapes_are_abandoned(p->table)) {
         SideLeft left = {is_start ? primitive_side(start.shape) : SIDE_NONE, inward};
-        count = primitive_intervals(primitive, object, left, intervals);
+        count = primitive_is_convex(primitive)
+                    ? primitive_intervals(primitive, object, left, intervals)
+                    : primitive_intervals_within(primitive, object, left, p->decided_from, p->decided_until, intervals);
     }
     bool is_met = false, is_inside = false;
     double enter = (double)INFINITY, leave = 0.0; // of all intervals, which films among them leave out of order

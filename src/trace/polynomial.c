@@ -23,11 +23,15 @@ _Static_assert((int)POLYNOMIAL_ORDER_MOST <= (int)ROOTS_DEGREE_MOST, "the root f
 // A root is as good as the rest of a crossing if it is off by so many u of all that makes its place.
 static const double GOOD_ROOT = 0x1p-44;
 
+// How far beyond a range crossings are told, as a share of its ends: far more than rounding does to it.
+static const double WITHIN_MARGIN = 0x1p-20;
+
 typedef struct Line {
     const double *list;
     const Ray *ray;
     double t_base, step; // t = t_base + s step
     Vec3 base, along;    // by s; `along` is exact
+    double low, high;    // from where to where roots are asked for; by s
     bool is_start;       // s = 0 is a root, and left out
 } Line;
 
@@ -77,6 +81,22 @@ static DoubleWord exact_base(double origin, double direction, double t)
     return double_word_add(product, (DoubleWord){origin, 0.0});
 }
 
+static DoubleWord exact_place(double origin, double direction, DoubleWord t)
+{
+    DoubleWord product = two_product(direction, t.hi);
+    return double_word_add(two_sum(product.hi, product.lo + direction * t.lo), (DoubleWord){origin, 0.0});
+}
+
+// Of Horner's scheme.
+static DoubleWord exact_step(DoubleWord value, DoubleWord x, DoubleWord next)
+{
+    if (value.hi == 0.0) {
+        return next;
+    }
+    value = double_word_mul(value, x);
+    return next.hi == 0.0 ? value : double_word_add(value, next);
+}
+
 static void exact_compose(const Line *line, DoubleWord *whole)
 {
     const Ray *ray = line->ray;
@@ -118,6 +138,32 @@ static void refine(Polynomial *polynomial, const void *owner)
     }
 }
 
+// The surface's polynomial at a place of the line: its terms one after the other, of which most are often 0.
+static DoubleWord exact_value(const void *owner, DoubleWord s)
+{
+    const Line *line = owner;
+    const Ray *ray = line->ray;
+    DoubleWord t = two_sum(line->t_base, line->step * s.hi);
+    t = double_word_add(t, (DoubleWord){line->step * s.lo, 0.0});
+    DoubleWord x = exact_place(ray->origin.x, ray->direction.x, t), value = {0.0, 0.0};
+    DoubleWord y = exact_place(ray->origin.y, ray->direction.y, t);
+    DoubleWord z = exact_place(ray->origin.z, ray->direction.z, t);
+    int order = (int)polynomial_order(line->list);
+    const double *c = polynomial_terms(line->list);
+    for (int i = order; i >= 0; i--) {
+        DoubleWord row = {0.0, 0.0};
+        for (int j = order - i; j >= 0; j--) {
+            DoubleWord part = {0.0, 0.0};
+            for (int k = order - i - j; k >= 0; k--) {
+                part = exact_step(part, z, (DoubleWord){*c++, 0.0});
+            }
+            row = exact_step(row, y, part);
+        }
+        value = exact_step(value, x, row);
+    }
+    return value;
+}
+
 // The sizes of the terms of each coefficient along the line, of all of one degree together, with the greatest
 // coordinate in the place of each; and how far the coefficients may be off.
 RT_ALWAYS_INLINE void errors_of(const Line *line, int order, double *sizes, double *errors)
@@ -147,6 +193,7 @@ static void line_polynomial(const Line *line, Polynomial *p)
     errors_of(line, (int)order, sizes, errors);
     p->degree = order - first;
     p->refine = refine;
+    p->value = line->is_start ? NULL : exact_value;
     p->owner = line;
     for (unsigned i = 0; i <= p->degree; i++) {
         p->terms[i] = whole[i + first];
@@ -173,17 +220,19 @@ static double inverse_power(double x)
     return power;
 }
 
-static void line_set(Line *line, const double *list, const Ray *ray, bool is_start)
+// Seen from `t_base`, or where it starts.
+static void line_set(Line *line, const double *list, const Ray *ray, bool is_start, double t_base)
 {
     Vec3 o = ray->origin, d = ray->direction;
-    double length2 = vec3_length_squared(d);
     line->list = list;
     line->ray = ray;
     line->is_start = is_start;
-    line->t_base = is_start ? 0.0 : -vec3_dot(o, d) / length2;
+    line->t_base = is_start ? 0.0 : t_base;
     line->step = inverse_power(vec3_max_abs(d));
     line->base = vec3_add_scaled(o, line->t_base, d);
     line->along = vec3_scale(line->step, d);
+    line->low = is_start ? 0.0 : -(double)INFINITY;
+    line->high = (double)INFINITY;
 }
 
 // Whether a root is good to some u of all that makes its place.
@@ -198,18 +247,19 @@ RT_ALWAYS_INLINE bool root_is_good(const Line *line, const double *terms, const 
     return error <= GOOD_ROOT * (vec3_max_abs(line->ray->origin) + size) * fabs(slope);
 }
 
-static unsigned line_roots(const Line *line, Polynomial *p, double low, double *roots, int *sign)
+static unsigned line_roots(const Line *line, Polynomial *p, double *roots, int *sign)
 {
-    const double high = (double)INFINITY;
-    unsigned count = roots_find(p, low, high, roots, sign);
-    bool are_good = true, were_exact = p->is_exact; // their errors are those of then
+    bool is_about = isfinite(line->high) && (line->low == 0.0 || line->low == -line->high);
+    unsigned count = is_about ? roots_find_about(p, line->high, line->low == 0.0, roots, sign)
+                              : roots_find(p, line->low, line->high, roots, sign);
+    bool are_good = true, were_exact = p->is_exact, refines = false; // their errors are those of then
     for (unsigned i = 0; i < count && !were_exact; i++) {
-        if ((p->is_exact || !root_is_good(line, p->terms, p->errors, p->degree, roots[i])) &&
-            !roots_refine(p, &roots[i])) {
+        refines = refines || p->is_exact || !root_is_good(line, p->terms, p->errors, p->degree, roots[i]);
+        if (refines && !roots_refine(p, &roots[i])) {
             are_good = false;
         }
     }
-    return are_good ? count : roots_find_exact(p, low, high, roots, sign);
+    return are_good ? count : roots_find_exact(p, line->low, line->high, roots, sign);
 }
 
 static unsigned make_intervals(const Line *line, const double *roots, unsigned count, bool is_inside,
@@ -319,11 +369,10 @@ static unsigned line_intervals(const Line *line, bool inward, RayInterval *inter
     double roots[TERMS_MOST];
     int sign;
     line_polynomial(line, &p);
-    if (!line->is_start) {
-        unsigned count = line_roots(line, &p, -(double)INFINITY, roots, &sign);
+    unsigned count = line_roots(line, &p, roots, &sign);
+    if (!line->is_start || line->low > 0.0) {
         return make_intervals(line, roots, count, sign < 0, intervals);
     }
-    unsigned count = line_roots(line, &p, 0.0, roots, &sign);
     bool is_inside = starts_inside(p.terms, p.degree, inward);
     unsigned passed = count > 0 && is_inside != (sign < 0) ? 1 : 0; // the start's own, come twice
     return make_intervals(line, roots + passed, count - passed, is_inside, intervals);
@@ -335,12 +384,27 @@ unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left,
     double roots[2];
     unsigned count;
     bool is_start = left.side != SIDE_NONE, is_inside;
-    line_set(&line, list, ray, is_start);
+    line_set(&line, list, ray, is_start, -vec3_dot(ray->origin, ray->direction) / vec3_length_squared(ray->direction));
     bool is_told =
         polynomial_order(list) == 2 && (is_start ? quadric_roots_left(&line, left.inward, roots, &count, &is_inside)
                                                  : quadric_roots(&line, roots, &count, &is_inside));
     return is_told ? make_intervals(&line, roots, count, is_inside, intervals)
                    : line_intervals(&line, left.inward, intervals);
+}
+
+unsigned polynomial_intervals_within(const double *list, const Ray *ray, SideLeft left, double low, double high,
+                                     RayInterval *intervals)
+{
+    Line line;
+    bool is_start = left.side != SIDE_NONE;
+    double margin = WITHIN_MARGIN * (fabs(low) + fabs(high));
+    if (polynomial_order(list) == 2 || !isfinite(margin)) {
+        return polynomial_intervals(list, ray, left, intervals);
+    }
+    line_set(&line, list, ray, is_start, 0.5 * (low + high));
+    line.high = (is_start ? high + margin : 0.5 * (high - low) + margin) / line.step;
+    line.low = is_start ? greater_of(0.0, low - margin) / line.step : -line.high;
+    return line_intervals(&line, left.inward, intervals);
 }
 
 // ---- surfaces

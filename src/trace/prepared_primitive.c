@@ -273,6 +273,12 @@ static unsigned polynomial_side_intervals(const PreparedPrimitive *primitive, co
     return polynomial_intervals(primitive->list.items, object, left, intervals);
 }
 
+static unsigned polynomial_side_within(const PreparedPrimitive *primitive, const Ray *object, SideLeft left, double low,
+                                       double high, RayInterval *intervals)
+{
+    return polynomial_intervals_within(primitive->list.items, object, left, low, high, intervals);
+}
+
 static Vec3 polynomial_side_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side)
 {
     (void)side;
@@ -456,6 +462,7 @@ const PreparedClass prepared_classes[PRIMITIVE_KINDS] = {
                          .axes = torus_axes,
                          .films = 1 << TORUS_INNER},
     [PRIMITIVE_POLYNOMIAL] = {.intervals = polynomial_side_intervals,
+                              .intervals_within = polynomial_side_within,
                               .normal = polynomial_side_normal,
                               .gradient = polynomial_side_gradient,
                               .point = same_point,

@@ -105,6 +105,9 @@ static inline bool primitive_is_mesh(const PreparedPrimitive *primitive)
 typedef struct PreparedClass {
     // What of the line is inside, in order; returns how many intervals. What is met at the ends is the shape's surface.
     unsigned (*intervals)(const PreparedPrimitive *primitive, const Ray *object, SideLeft left, RayInterval *intervals);
+    // The same as far as anybody asks: see polynomial_intervals_within. NULL: nothing is gained.
+    unsigned (*intervals_within)(const PreparedPrimitive *primitive, const Ray *object, SideLeft left, double low,
+                                 double high, RayInterval *intervals);
     // Of a flat one instead: where it is met.
     bool (*root)(const PreparedPrimitive *primitive, const Ray *object, double *t);
     Vec3 (*normal)(const PreparedPrimitive *primitive, Vec3 point, uint8_t side);
@@ -152,6 +155,14 @@ static inline unsigned primitive_intervals(const PreparedPrimitive *primitive, c
                                            RayInterval *intervals)
 {
     return prepared_classes[primitive->kind].intervals(primitive, object, left, intervals);
+}
+
+static inline unsigned primitive_intervals_within(const PreparedPrimitive *primitive, const Ray *object, SideLeft left,
+                                                  double low, double high, RayInterval *intervals)
+{
+    const PreparedClass *class = &prepared_classes[primitive->kind];
+    return class->intervals_within ? class->intervals_within(primitive, object, left, low, high, intervals)
+                                   : class->intervals(primitive, object, left, intervals);
 }
 
 // How much the ends of an interval may be off at most: it is no longer, and its neighbours are no nearer.

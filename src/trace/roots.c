@@ -388,31 +388,31 @@ unsigned roots_find(Polynomial *p, double low, double high, double *roots, int *
     return was_exact == p->is_exact ? count : find_between(p, &range, roots, sign);
 }
 
-// Bernstein's coefficients of a polynomial of degree 4 or less on [-half, half]: it lies between the least and the
-// greatest of them, and has no more roots than their signs change.
-static void bernstein(const Polynomial *p, double half, double b[5], double *error)
+// Bernstein's coefficients of a polynomial of degree 4 or less on [-high, high], or with `is_half` from 0 on: it lies
+// between the least and the greatest of them, and has no more roots than their signs change.
+static void bernstein(const Polynomial *p, double high, bool is_half, double b[5], double *error)
 {
     double c[5] = {0.0}, power = 1.0;
     *error = 0.0;
     for (unsigned i = 0; i <= p->degree; i++) {
         c[i] = p->terms[i] * power;
         *error += p->errors[i] * power;
-        power *= half;
+        power *= high;
     }
     *error *= 1.0 + 0x1p-20;
     double third = c[2] / 3.0, half_odd = 0.5 * (c[1] - c[3]);
-    b[0] = c[0] - c[1] + c[2] - c[3] + c[4];
-    b[1] = c[0] - half_odd - c[4];
-    b[2] = c[0] - third + c[4];
-    b[3] = c[0] + half_odd - c[4];
+    b[0] = is_half ? c[0] : c[0] - c[1] + c[2] - c[3] + c[4];
+    b[1] = is_half ? c[0] + 0.25 * c[1] : c[0] - half_odd - c[4];
+    b[2] = is_half ? c[0] + 0.5 * (c[1] + third) : c[0] - third + c[4];
+    b[3] = is_half ? c[0] + 0.75 * c[1] + 0.5 * c[2] + 0.25 * c[3] : c[0] + half_odd - c[4];
     b[4] = c[0] + c[1] + c[2] + c[3] + c[4];
 }
 
-unsigned roots_find_about(Polynomial *p, double half, double *roots, int *sign)
+unsigned roots_find_about(Polynomial *p, double high, bool is_half, double *roots, int *sign)
 {
-    double b[5], error;
+    double b[5], error, low = is_half ? 0.0 : -high;
     if (p->degree <= 4 && !p->is_exact) {
-        bernstein(p, half, b, &error);
+        bernstein(p, high, is_half, b, &error);
         unsigned changes = 0;
         int last = fabs(b[0]) > error ? sign_of(b[0]) : 0;
         bool is_known = last != 0 && fabs(b[4]) > error;
@@ -428,25 +428,36 @@ unsigned roots_find_about(Polynomial *p, double half, double *roots, int *sign)
             return 0;
         }
         if (is_known && changes == 1) {
-            roots[0] = root_between(p, 0, -half, half, *sign, 0.0);
+            roots[0] = root_between(p, 0, low, high, *sign, 0.5 * (low + high));
             return 1;
         }
     }
-    return roots_find(p, -half, half, roots, sign);
+    return roots_find(p, low, high, roots, sign);
 }
 
+// The polynomial at a place, from exact terms.
+static DoubleWord value_exact(const Polynomial *p, DoubleWord x)
+{
+    DoubleWord value = p->exact[p->degree];
+    for (unsigned k = p->degree; k-- > 0;) {
+        value = double_word_add(double_word_mul(value, x), p->exact[k]);
+    }
+    return value;
+}
+
+// A step of Newton's leaves of itself what the bend and errors of the slope make.
 bool roots_refine(Polynomial *p, double *root)
 {
-    make_exact(p);
+    bool is_given = p->value && !p->is_exact;
+    if (!is_given) {
+        make_exact(p);
+    }
     if (!p->has_levels) {
         set_levels(p);
     }
     DoubleWord x = {*root, 0.0};
     for (int i = 0; i < REFINE_MOST; i++) {
-        DoubleWord value = p->exact[p->degree];
-        for (unsigned k = p->degree; k-- > 0;) {
-            value = double_word_add(double_word_mul(value, x), p->exact[k]);
-        }
+        DoubleWord value = is_given ? p->value(p->owner, x) : value_exact(p, x);
         double slope = value_at(p, 1, x.hi), change = value.hi / slope;
         double turn = p->degree > 1 ? change * value_at(p, 2, x.hi) : 0.0;
         if (value.hi == 0.0) {
@@ -456,7 +467,8 @@ bool roots_refine(Polynomial *p, double *root)
             return false;
         }
         x = double_word_add(x, (DoubleWord){-change, 0.0});
-        if (fabs(change) <= 0x1p-70 * fabs(x.hi)) {
+        double left = fabs(change) * (fabs(turn) + bound_at(p->errors, p->degree, 1, x.hi));
+        if (fabs(change) <= 0x1p-70 * fabs(x.hi) || left <= 0x1p-70 * fabs(x.hi) * fabs(slope)) {
             break;
         }
     }

@@ -30,14 +30,16 @@ struct Polynomial {
     double errors[ROOTS_DEGREE_MOST + 1], sizes[ROOTS_DEGREE_MOST + 1];
     // Fills in `exact`, once. NULL: nothing better is known, and roots_and_turns alone may be asked.
     void (*refine)(Polynomial *polynomial, const void *owner);
+    // The polynomial at a place, as good as `exact` makes it, without making that; NULL: there is no such way.
+    DoubleWord (*value)(const void *owner, DoubleWord x);
     const void *owner;
     bool has_levels; // derivatives are in terms[]
     bool is_exact;   // terms[] are the nearest to `exact` then
     DoubleWord exact[ROOTS_DEGREE_MOST + 1];
 };
 
-// Makes a polynomial ready whose degree, terms, errors, sizes, refine and owner are set. Leading terms of 0 are left
-// out.
+// Makes a polynomial ready whose degree, terms, errors, sizes, refine, value and owner are set. Leading terms of 0 are
+// left out.
 void roots_start(Polynomial *polynomial);
 
 // The sign of the polynomial at x: -1, 0, 1.
@@ -47,8 +49,8 @@ int roots_sign(Polynomial *polynomial, double x);
 // as the degree. Returns how many; *sign is what it is before the first.
 unsigned roots_find(Polynomial *polynomial, double low, double high, double *roots, int *sign);
 
-// The same from -half to half, sooner where the degree is 4 or less.
-unsigned roots_find_about(Polynomial *polynomial, double half, double *roots, int *sign);
+// The same from -high to high, or with `is_half` from 0 on; sooner where the degree is 4 or less.
+unsigned roots_find_about(Polynomial *polynomial, double high, bool is_half, double *roots, int *sign);
 
 // The same by double words throughout, which costs some ten times as much.
 unsigned roots_find_exact(Polynomial *polynomial, double low, double high, double *roots, int *sign);

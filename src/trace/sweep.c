@@ -262,6 +262,7 @@ static void set_places(const Seen *seen, Polynomial *p)
     form_of(seen, f);
     p->degree = form + 2 * (degree - 1);
     p->refine = NULL;
+    p->value = NULL;
     for (unsigned i = 0; i <= p->degree; i++) {
         p->terms[i] = sizes[i] = 0.0;
     }
@@ -346,6 +347,7 @@ static void segment_cover(const Line *line, const SweepSegment *segment, unsigne
     }
     p.degree = 2 * degree;
     p.refine = refine;
+    p.value = NULL;
     p.owner = &seen;
     roots_start(&p);
     unsigned count = roots_find(&p, -0.5, 0.5, roots, &sign);

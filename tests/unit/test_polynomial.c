@@ -307,11 +307,72 @@ static void test_from_surface(unsigned order, double size, uint64_t seed)
     tap_ok(wrong == 0, "order %u, size %g: and all else (%d of %d do not)", order, size, wrong, rays);
 }
 
+// The crossings of intervals in a range, and whether its low end is inside. False: some lie next to an end.
+static bool crossings_within(const RayInterval *intervals, unsigned count, double low, double high, double *places,
+                             unsigned *found, bool *is_inside)
+{
+    bool is_clear = true;
+    *found = 0;
+    *is_inside = false;
+    for (unsigned i = 0; i < count; i++) {
+        const double ends[2] = {intervals[i].enter, intervals[i].leave};
+        for (int k = 0; k < 2; k++) {
+            is_clear = is_clear && !(fabs(ends[k] - low) < 1e-5 * high) && !(fabs(ends[k] - high) < 1e-5 * high);
+            if (ends[k] > low && ends[k] < high) {
+                places[(*found)++] = ends[k];
+            }
+        }
+        *is_inside = *is_inside || (ends[0] < low && ends[1] > low);
+    }
+    return is_clear;
+}
+
+// A range has the crossings that all of the line has there, and as good ones.
+static void test_within(unsigned order, double size, bool starts, uint64_t seed)
+{
+    Random random = {seed};
+    int rays = 0, met = 0, wrong = 0;
+    double worst = 0.0;
+    for (int i = 0; i < 4000; i++) {
+        Vec3 on = random_vec3(&random, -size, size), d = random_direction(&random);
+        Surface surface = random_surface(&random, order, size, on);
+        Vec3 n = polynomial_normal(surface.list, on);
+        Ray ray = {starts ? on : vec3_add_scaled(on, -random_between(&random, 1.0, 8.0) * size, d), d};
+        SideLeft left = {starts ? 0 : SIDE_NONE, vec3_dot(d, n) < 0.0};
+        double low = i % 3 == 0 ? 0.0 : random_between(&random, 0.0, 6.0) * size;
+        double high = low + random_between(&random, 0.1, 6.0) * size;
+        RayInterval whole[ORDER_MOST], part[ORDER_MOST];
+        double all[2 * ORDER_MOST], some[2 * ORDER_MOST];
+        unsigned all_count, some_count;
+        bool all_inside, some_inside;
+        unsigned count = polynomial_intervals(surface.list, &ray, left, whole);
+        if (!crossings_within(whole, count, low, high, all, &all_count, &all_inside)) {
+            continue;
+        }
+        count = polynomial_intervals_within(surface.list, &ray, left, low, high, part);
+        crossings_within(part, count, low, high, some, &some_count, &some_inside);
+        rays++;
+        met += all_count > 0;
+        wrong += some_count != all_count || some_inside != all_inside;
+        for (unsigned k = 0; k < all_count && some_count == all_count; k++) {
+            worst = fmax(worst, fabs(some[k] - all[k]) / (size + all[k]));
+        }
+    }
+    tap_ok(wrong == 0 && rays > 2000 && met > 200, "order %u, size %g%s: a range has what the line has (%d of %d not)",
+           order, size, starts ? ", from the surface" : "", wrong, rays);
+    tap_ok(worst < 1e-9, "order %u, size %g: and where that has it (%g)", order, size, worst);
+}
+
 int main(void)
 {
     uint64_t seed = random_seed(NULL);
     for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
         test_family(&families[i], seed);
+    }
+    for (unsigned order = 3; order <= 6; order++) {
+        for (int starts = 0; starts < 2; starts++) {
+            test_within(order, order == 4 ? 1e-9 : 1.0, starts, seed + order);
+        }
     }
     test_multiple(2, 2, seed);
     test_multiple(2, 4, seed);
