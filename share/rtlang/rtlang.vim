@@ -34,24 +34,25 @@ syn keyword rtlangWord dents difference diffuse direction disc dist_exp distance
 syn keyword rtlangWord exr exterior fade_color fade_colour fade_distance fade_power falloff falloff_angle
 syn keyword rtlangWord finish fisheye flip focal_point fog fog_alt fog_offset fog_type form frequency fresnel
 syn keyword rtlangWord gamma global_settings gradient granite hdr height_field hexagon hf_gray_16 hierarchy
-syn keyword rtlangWord hollow image_map image_pattern inside_vector interior interpolate intersection inverse
-syn keyword rtlangWord ior irid irid_wavelength isosurface jitter jpeg julia julia_fractal lambda lathe
-syn keyword rtlangWord leopard light_source location look_at looks_like magnet major_radius mandel map_type
-syn keyword rtlangWord marble material material_map matrix max_gradient max_intersections max_iteration
-syn keyword rtlangWord max_trace max_trace_level media_attenuation media_interaction merge mesh mesh2 metallic
-syn keyword rtlangWord metric mm_per_unit mortar no_bump_scale no_image no_radiosity no_reflection no_shadow
-syn keyword rtlangWord noise_generator normal normal_map number_of_waves object octaves offset omega omnimax
-syn keyword rtlangWord once onion open orient orientation orthographic panoramic parallel pattern perspective
-syn keyword rtlangWord pgm phase phong phong_size pigment pigment_map pigment_pattern planar plane png
-syn keyword rtlangWord point_at poly poly_wave polygon ppm precision premultiplied prism quadric quartic
-syn keyword rtlangWord quaternion quick_color quick_colour quilted radial radius rainbow ramp_wave reflection
-syn keyword rtlangWord reflection_exponent refraction repeat right ripples rotate roughness scale scallop_wave
-syn keyword rtlangWord shadowless sine_wave sky sky_sphere slice slope slope_map smooth smooth_triangle solid
-syn keyword rtlangWord sor specular sphere sphere_sweep spherical spiral1 spiral2 split_union spotlight
-syn keyword rtlangWord spotted sqr strength sturm superellipsoid text texture texture_map tga thickness
-syn keyword rtlangWord threshold tiff tightness tiles tolerance toroidal torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up uv_mapping variance warp
-syn keyword rtlangWord water_level waves width wood wrinkles
+syn keyword rtlangWord hollow image_map image_pattern inside_vector interior interior_texture interpolate
+syn keyword rtlangWord intersection inverse ior irid irid_wavelength isosurface jitter jpeg julia
+syn keyword rtlangWord julia_fractal lambda lathe leopard light_source location look_at looks_like magnet
+syn keyword rtlangWord major_radius mandel map_type marble material material_map matrix max_gradient
+syn keyword rtlangWord max_intersections max_iteration max_trace max_trace_level media_attenuation
+syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
+syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
+syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
+syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
+syn keyword rtlangWord pigment_map pigment_pattern planar plane png point_at poly poly_wave polygon ppm
+syn keyword rtlangWord precision premultiplied prism quadric quartic quaternion quick_color quick_colour
+syn keyword rtlangWord quilted radial radius rainbow ramp_wave reflection reflection_exponent refraction
+syn keyword rtlangWord repeat right ripples rotate roughness scale scallop_wave shadowless sine_wave sky
+syn keyword rtlangWord sky_sphere slice slope slope_map smooth smooth_triangle solid sor specular sphere
+syn keyword rtlangWord sphere_sweep spherical spiral1 spiral2 split_union spotlight spotted sqr strength sturm
+syn keyword rtlangWord superellipsoid text texture texture_map tga thickness threshold tiff tightness tiles
+syn keyword rtlangWord tolerance toroidal torus transform translate triangle triangle_wave turb_depth
+syn keyword rtlangWord turbulence ultra_wide_angle union up uv_mapping variance warp water_level waves width
+syn keyword rtlangWord wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

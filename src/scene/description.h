@@ -118,6 +118,7 @@ typedef struct InteriorDesc {
 typedef struct MaterialDesc {
     Transform transform; // of the texture
     const TextureDesc *texture;   // NULL: none was given
+    const TextureDesc *inner;     // likewise: interior_texture
     const InteriorDesc *interior; // likewise
 } MaterialDesc;
 
@@ -156,6 +157,7 @@ typedef struct ObjectPart {
     bool ignored; // what changes no picture
     const Clip *clips, *bounds; // in order
     const TextureDesc *texture; // of its own, as it is moved with the object; NULL: taken over
+    const TextureDesc *inner;   // likewise: interior_texture
     Span span;
 } ObjectPart;
 

@@ -212,6 +212,17 @@ void dump_interior_word(uint32_t interior, TextBuffer *out)
     }
 }
 
+static void dump_inner_texture(const Scene *scene, MaterialIndex material, TextBuffer *out)
+{
+    uint32_t inner =
+        material & MATERIAL_COMPOUND ? scene->compounds.items[material & ~MATERIAL_COMPOUND].inner : RECORD_NONE;
+    if (inner != RECORD_NONE) {
+        text_append(out, " interior_texture { ");
+        dump_texture_name(inner, scene, out);
+        text_append(out, " }");
+    }
+}
+
 void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *around, TextBuffer *out)
 {
     const char *hollow = scene_is_hollow(scene, material) ? " hollow" : "";
@@ -224,6 +235,7 @@ void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *ar
     } else {
         text_printf(out, "%s texture { M%lu }", hollow, (unsigned long)material + 1);
     }
+    dump_inner_texture(scene, material, out);
     if (!around || *around != interior) {
         dump_interior_word(interior, out);
     }

@@ -35,6 +35,8 @@ void dump_warps(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 // finishes.
 void dump_textures(const Scene *scene, TextBuffer *out);
 void dump_sky(const Scene *scene, TextBuffer *out);
+// The name of the texture of a material.
+void dump_texture_name(MaterialIndex material, const Scene *scene, TextBuffer *out);
 // What fills a shape of a material: Scene.interiors, or RECORD_NONE.
 uint32_t dump_interior_of(const Scene *scene, MaterialIndex material);
 // Named where there is one, else as one that is empty.

@@ -28,8 +28,7 @@ static void dump_indices(const char *word, const uint32_t (*indices)[3], uint32_
     text_append(out, " }\n");
 }
 
-// The name of the texture of a material.
-static void dump_name(MaterialIndex material, const Scene *scene, TextBuffer *out)
+void dump_texture_name(MaterialIndex material, const Scene *scene, TextBuffer *out)
 {
     if (material & MATERIAL_COMPOUND) {
         text_printf(out, "T%lu", (unsigned long)scene->compounds.items[material & ~MATERIAL_COMPOUND].texture + 1);
@@ -69,7 +68,7 @@ static void dump_face_texture(const Scene *scene, MaterialIndex material, const 
         return;
     }
     text_append(out, "    texture { ");
-    dump_name(material, scene, out);
+    dump_texture_name(material, scene, out);
     if ((material & MATERIAL_COMPOUND) && !transform_is_identity(back)) {
         text_append(out, " matrix ");
         dump_numbers(out, &back->m[0][0], 12);
@@ -106,7 +105,7 @@ static void dump_triangle_texture(const Scene *scene, MaterialIndex material, Te
         text_printf(out, " T%lu", (unsigned long)entries[at].texture + 1);
     }
     if (!corners) {
-        dump_name(material, scene, out);
+        dump_texture_name(material, scene, out);
     }
     text_append(out, " }");
 }

@@ -132,15 +132,16 @@ typedef struct Interior {
     double caustics;      // exponent of the light that is gathered behind a surface, see docs/language.md; 0: none is
 } Interior;
 
+// Index into Scene.materials, or into Scene.compounds when MATERIAL_COMPOUND is set.
+typedef uint32_t MaterialIndex;
+
 // What is more than a plain material.
 typedef struct Compound {
     uint32_t texture;   // Scene.textures
     uint32_t interior;  // Scene.interiors, or RECORD_NONE
     uint32_t is_hollow; // fog continues inside of it
+    MaterialIndex inner; // what it looks like where a ray meets it from inside: of the same interior; or RECORD_NONE
 } Compound;
-
-// Index into Scene.materials, or into Scene.compounds when MATERIAL_COMPOUND is set.
-typedef uint32_t MaterialIndex;
 
 #define MATERIAL_COMPOUND (UINT32_C(1) << 31)
 

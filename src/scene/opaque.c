@@ -42,7 +42,9 @@ static bool texture_is_opaque(const Scene *scene, uint32_t number)
 bool scene_material_is_opaque(const Scene *scene, MaterialIndex index)
 {
     if (index & MATERIAL_COMPOUND) {
-        return texture_is_opaque(scene, scene->compounds.items[index & ~MATERIAL_COMPOUND].texture);
+        const Compound *compound = &scene->compounds.items[index & ~MATERIAL_COMPOUND];
+        return texture_is_opaque(scene, compound->texture) &&
+               (compound->inner == RECORD_NONE || scene_material_is_opaque(scene, compound->inner));
     }
     const Material *material = &scene->materials.items[index];
     return material->filter == 0.0F && material->transmit == 0.0F;

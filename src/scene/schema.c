@@ -109,6 +109,8 @@ static const SchemaProperty pattern_modifiers[] = {
 
 static const SchemaProperty object_modifiers[] = {
     {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; a second one is laid over the first"},
+    {"interior_texture", TYPE_BLOCK, ACTION_INNER_TEXTURE,
+     .doc = "the surface as it is seen from inside; a second one is laid over the first"},
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "the texture's pigment"},
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "the texture's bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "the texture's finish; what is not said stays as it was"},
@@ -820,6 +822,7 @@ static const InteriorDesc interior_defaults = {.interior = {.ior = 1.0}};
 
 static const SchemaProperty material_properties[] = {
     {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; a second one is laid over the first"},
+    {"interior_texture", TYPE_BLOCK, ACTION_INNER_TEXTURE, .doc = "the surface as it is seen from inside, likewise"},
     {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what is inside"},
 };
 

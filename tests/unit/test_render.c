@@ -106,7 +106,7 @@ static void test_layers(void)
     scene_init(&scene);
     Texture layer = {.to_world = transform_identity(), .entries = RECORD_NONE, .below = RECORD_NONE,
                      .normal = RECORD_NONE, .pigment = pigment_of((Rgbft){1.0, 0.5, 0.25, 0.0, 0.0})};
-    Compound compound = {.interior = RECORD_NONE};
+    Compound compound = {.interior = RECORD_NONE, .inner = RECORD_NONE};
     MaterialIndex material;
     bool is_fine = scene_add_finish(&scene, &plain_finish, &layer.finish) &&
                    scene_add_texture(&scene, &layer, &layer.below);

@@ -101,7 +101,7 @@ static bool add_checkered(Scene *scene, Random *random, const Finish *finish, bo
     top.pigment.pattern = pattern;
     top.below = below;
     is_fine = is_fine && scene_add_texture(scene, &top, &texture);
-    Compound compound = {.texture = texture, .interior = RECORD_NONE};
+    Compound compound = {.texture = texture, .interior = RECORD_NONE, .inner = RECORD_NONE};
     return is_fine && scene_add_compound(scene, &compound, material);
 }
 
@@ -115,7 +115,7 @@ static bool add_glass(Scene *scene, Random *random, Rgbft pigment, const Finish 
     interior.fade_distance = random_bits(random) % 2 ? 3.0 : 0.0;
     interior.fade_power = one_of(random, powers, 4);
     interior.caustics = random_bits(random) % 4 ? 0.0 : 0.5;
-    Compound compound = {.interior = RECORD_NONE};
+    Compound compound = {.interior = RECORD_NONE, .inner = RECORD_NONE};
     bool is_fine = scene_add_finish(scene, finish, &texture.finish) &&
                    scene_add_texture(scene, &texture, &compound.texture) &&
                    (random_bits(random) % 4 == 0 || scene_add_interior(scene, &interior, &compound.interior));

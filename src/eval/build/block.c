@@ -22,6 +22,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_MATRIX] = transform_action,
     [ACTION_TRANSFORM] = transform_action,
     [ACTION_TEXTURE] = texture_action,
+    [ACTION_INNER_TEXTURE] = inner_texture_action,
     [ACTION_PIGMENT] = texture_action,
     [ACTION_FINISH] = texture_action,
     [ACTION_NORMAL] = texture_action,
@@ -566,6 +567,7 @@ bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *are
     }
     if (schema_kind(block.is)->is_object) {
         record->part.span = node->span;
+        return inner_texture_fits(&block);
     }
     return true;
 }

@@ -244,9 +244,16 @@ bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Tra
 bool normal_place(Eval *ev, Scene *scene, const NormalDesc *normal, Span span, uint32_t *index) RT_MUST_CHECK;
 // True when nothing below a texture can be seen: it is of one colour that lets no light through.
 bool texture_hides_all(const TextureDesc *texture);
-// The scene's record of a texture that is moved by `outer`, and of what is inside (NULL: nothing was said).
-bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer, const InteriorDesc *interior,
-                    bool is_hollow, Span span, MaterialIndex *index) RT_MUST_CHECK;
+// What a surface is beside its texture.
+typedef struct MaterialSides {
+    const InteriorDesc *interior; // what is inside; NULL: nothing was said
+    const TextureDesc *filling;   // whose old finishes may say something of that
+    bool is_hollow;
+    MaterialIndex inner; // what is seen from inside, or RECORD_NONE
+} MaterialSides;
+// The scene's record of a texture that is moved by `outer`.
+bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer, const MaterialSides *sides, Span span,
+                    MaterialIndex *index) RT_MUST_CHECK;
 
 // texture.c
 // Where an object or a material keeps its texture; NULL for other blocks.
@@ -261,6 +268,11 @@ bool material_take_name(Block *block, const MaterialDesc *material, Span span) R
 // Moves a texture with all that lies below it.
 void texture_transform(TextureDesc *texture, const Transform *transform);
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// The same of what is seen from inside; NULL where a block has none.
+const TextureDesc **inner_texture_place(Block *block);
+bool inner_texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// At an object's end: whoever has one has a texture, too.
+bool inner_texture_fits(Block *block) RT_MUST_CHECK;
 bool finish_irid_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool tiles_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;

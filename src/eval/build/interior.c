@@ -28,19 +28,25 @@ bool interior_action(Block *block, const SchemaProperty *property, const AstNode
     return *place || eval_no_memory(block->ev, item->span);
 }
 
-bool material_take_name(Block *block, const MaterialDesc *material, Span span)
+// What a name says of textures is laid over what there is.
+static bool take_texture(Block *block, const TextureDesc *named, Span span, const TextureDesc **place)
 {
-    MaterialDesc *record = &block->record->material;
-    const TextureDesc *texture = material->texture;
-    if (texture && record->texture) {
-        texture = texture_laid_over(block->ev, block->arena, texture, record->texture, span);
-        if (!texture) {
+    if (named && *place) {
+        named = texture_laid_over(block->ev, block->arena, named, *place, span);
+        if (!named) {
             return false;
         }
     }
-    record->texture = texture ? texture : record->texture;
-    record->interior = material->interior;
+    *place = named ? named : *place;
     return true;
+}
+
+bool material_take_name(Block *block, const MaterialDesc *material, Span span)
+{
+    MaterialDesc *record = &block->record->material;
+    record->interior = material->interior;
+    return take_texture(block, material->texture, span, &record->texture) &&
+           take_texture(block, material->inner, span, &record->inner);
 }
 
 // A material continues from what the object is: it moves its texture, too.
@@ -52,11 +58,13 @@ bool material_action(Block *block, const SchemaProperty *property, const AstNode
     block_defaults(block->ev, KIND_MATERIAL, &record);
     ObjectPart *part = &block->record->part;
     record.material.texture = part->texture;
+    record.material.inner = part->inner;
     record.material.interior = part->interior;
     if (!block_read(block->ev, item, KIND_MATERIAL, block->arena, &record, &is)) {
         return false;
     }
     part->texture = record.material.texture;
+    part->inner = record.material.inner;
     part->interior = record.material.interior;
     return true;
 }

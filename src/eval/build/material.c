@@ -514,24 +514,24 @@ bool normal_place(Eval *ev, Scene *scene, const NormalDesc *normal, Span span, u
     return is_added && patterns_fit(&builder, patterns);
 }
 
-bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer, const InteriorDesc *interior,
-                    bool is_hollow, Span span, MaterialIndex *index)
+bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer, const MaterialSides *sides, Span span,
+                    MaterialIndex *index)
 {
     SharedMaps shared = {0};
     Builder builder = {ev, ev->scene, span, &shared, true};
-    Compound compound = {.is_hollow = is_hollow};
+    Compound compound = {.is_hollow = sides->is_hollow, .inner = sides->inner};
     MapCost cost;
     if (texture_asks_uv(texture)) {
         world_note(ev);
     }
-    if (!add_interior(&builder, texture, interior, &compound.interior)) {
+    if (!add_interior(&builder, sides->filling, sides->interior, &compound.interior)) {
         return false;
     }
     bool is_plain = texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE;
     if (is_plain && !has_bumps(texture) && (!texture->below || texture_hides_all(texture)) &&
-        compound.interior == RECORD_NONE) {
+        compound.interior == RECORD_NONE && compound.inner == RECORD_NONE) {
         Finish finish = texture->finish;
-        finish.flags |= is_hollow ? FINISH_HOLLOW : 0;
+        finish.flags |= sides->is_hollow ? FINISH_HOLLOW : 0;
         return layers_have_patterns(ev, texture) &&
                (scene_add_material(ev->scene, texture->pigment.colour, &finish, index) || eval_no_memory(ev, span));
     }

@@ -317,7 +317,7 @@ static Vec3 farthest(const Vec3 *p, size_t count, const Vec3 *axis)
 }
 
 // Its own plane at z = 0; of one at right angles to z x and y are the scene's. A frame of nothing where all lie on a
-// line.
+// line. Its side is that of the first three points that are on no line. Measured.
 static bool polygon_frame(Block *block, const Vec3 *p, size_t count, Span span, Transform *frame)
 {
     Vec3 farther = farthest(p, count, NULL), x = vector_unit(farther), y = vector_unit(farthest(p, count, &x));
@@ -336,6 +336,13 @@ static bool polygon_frame(Block *block, const Vec3 *p, size_t count, Span span, 
         for (int row = 0; row < 4; row++) {
             memcpy(frame->m[row], &rows[row], sizeof frame->m[row]);
         }
+    }
+    Vec3 side = vec3(0.0, 0.0, 0.0), front = vec3(frame->m[2][0], frame->m[2][1], frame->m[2][2]);
+    for (size_t i = 2; i < count && vec3_equal(side, vec3(0.0, 0.0, 0.0)); i++) {
+        side = vec3_cross(vector_unit(vec3_sub(p[1], p[0])), vector_unit(vec3_sub(p[i], p[0])));
+    }
+    for (int axis = 0; axis < 3 && vec3_dot(side, front) < 0.0; axis++) {
+        frame->m[2][axis] = -frame->m[2][axis];
     }
     return true;
 }

@@ -49,18 +49,36 @@ bool place_may_add(Eval *ev, Span span)
     return may_add_one(ev, span) && memory_suffices(ev, span);
 }
 
+bool placement_asks_uv(const Placement *at)
+{
+    return texture_asks_uv(at->texture) || (at->inner && texture_asks_uv(at->inner));
+}
+
 uint8_t place_hidden(const ObjectPart *part)
 {
     return (uint8_t)((part->no_image ? HIDDEN_CAMERA : 0) | (part->no_shadow ? HIDDEN_SHADOW : 0) |
                      (part->no_reflection ? HIDDEN_MIRROR : 0));
 }
 
-static bool place_plain_material(Eval *ev, const Placement *at, uint32_t inner_body, Span span, MaterialIndex *material)
+// A texture with what is seen of it from inside.
+static bool place_both_sides(Eval *ev, const TextureDesc *texture, const Transform *outer, const Placement *at,
+                             Span span, MaterialIndex *material)
 {
-    if (!material_place(ev, at->texture, &at->texture_outer, at->interior, at->is_hollow, span, material)) {
+    MaterialIndex inner = RECORD_NONE;
+    MaterialSides sides = {at->interior, texture, at->is_hollow, RECORD_NONE};
+    if (at->inner && !material_place(ev, at->inner, &at->inner_outer, &sides, span, &inner)) {
         return false;
     }
-    ev->clear_count += !texture_hides_all(at->texture);
+    sides.inner = inner;
+    ev->clear_count += !texture_hides_all(texture) || (at->inner && !texture_hides_all(at->inner));
+    return material_place(ev, texture, outer, &sides, span, material);
+}
+
+static bool place_plain_material(Eval *ev, const Placement *at, uint32_t inner_body, Span span, MaterialIndex *material)
+{
+    if (!place_both_sides(ev, at->texture, &at->texture_outer, at, span, material)) {
+        return false;
+    }
     if (at->body != RECORD_NONE && !inner_body && *material & MATERIAL_COMPOUND) {
         uint32_t *interior = &ev->scene->bodies.items[at->body].interior;
         *interior = *interior == RECORD_NONE ? ev->scene->compounds.items[*material & ~MATERIAL_COMPOUND].interior
@@ -76,11 +94,20 @@ bool place_material(Eval *ev, const void *object, const Primitive *primitive, co
     Span span = ((const ObjectPart *)object)->span;
     TextureDesc blend;
     Placement inner = *at;
+    // In POV-Ray their inner side depends on the way of their points, that of a triangle on each single transform, too.
+    bool has_no_sides = primitive->kind == PRIMITIVE_TRIANGLE || primitive->kind == PRIMITIVE_PRISM ||
+                        primitive->kind == PRIMITIVE_LATHE;
+    if (at->inner && has_no_sides) {
+        return eval_fault(ev, DIAG_E0251, span,
+                          "`interior_texture` of a flat triangle, prism, text or lathe is not supported by rtlang: a "
+                          "`mesh` may have one");
+    }
     if (primitive->kind == PRIMITIVE_BLOB && ((const BlobDesc *)object)->texture_count > 0) {
         if (!blob_blend(ev, object, at->texture, &at->texture_outer, &blend)) {
             return false;
         }
         inner.texture = &blend;
+        inner.inner = NULL; // is not shown then. Measured.
         inner.texture_outer = at->outer;
     }
     return place_plain_material(ev, &inner, inner_body, span, material);
@@ -113,7 +140,7 @@ static bool place_sphere(Eval *ev, const SphereDesc *sphere, const Placement *in
     Span span = sphere->part.span;
     MaterialIndex material;
     // One with surface coordinates keeps its turn.
-    *is_round = !texture_asks_uv(inner->texture) && sphere_image_radius(fabs(sphere->radius), transform, &image);
+    *is_round = !placement_asks_uv(inner) && sphere_image_radius(fabs(sphere->radius), transform, &image);
     if (!*is_round || !place_may_add(ev, span) || !place_plain_material(ev, inner, 0, span, &material)) {
         return !*is_round;
     }
@@ -158,10 +185,9 @@ bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement *at, P
         if (i >= mesh->single_count) {
             mesh_blend(mesh, &mesh->corners[i - mesh->single_count], &blend);
         }
-        if (!material_place(ev, texture, &at->outer, at->interior, at->is_hollow, span, &material)) {
+        if (!place_both_sides(ev, texture, &at->outer, at, span, &material)) {
             return false;
         }
-        ev->clear_count += !texture_hides_all(texture);
         if (!ARRAY_PUSH(&scene->face_materials, material)) {
             return eval_no_memory(ev, span);
         }
@@ -228,7 +254,7 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
     }
     Primitive shape;
     bool is_stretched = may_be_round && !inner->clips; // it was found not to be round, or has a turn that is seen
-    is_stretched |= kind == KIND_SPHERE && texture_asks_uv(inner->texture);
+    is_stretched |= kind == KIND_SPHERE && placement_asks_uv(inner);
     ShapeResult result = shape_make(ev, kind, object, &inner->outer, is_stretched, &shape);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING;
@@ -281,6 +307,8 @@ static bool place_look(Eval *ev, const LightDesc *light, const Placement *outer)
         .outer = transform_compose(light->look_transform, outer->outer),
         .texture = light->part.texture ? light->part.texture : outer->texture,
         .texture_outer = light->part.texture ? outer->outer : outer->texture_outer,
+        .inner = outer->inner,
+        .inner_outer = outer->inner_outer,
         .interior = outer->interior,
         .body = outer->body,
         .is_look = true,
@@ -304,6 +332,8 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .outer = transform_compose(part->transform, outer->outer),
         .texture = part->texture ? part->texture : outer->texture,
         .texture_outer = part->texture ? outer->outer : outer->texture_outer,
+        .inner = part->inner ? part->inner : outer->inner,
+        .inner_outer = part->inner ? outer->outer : outer->inner_outer,
         .interior = part->interior ? part->interior : outer->interior,
         .body = outer->body,
         .clips = part->clips ? &own : outer->clips,

@@ -20,6 +20,8 @@ typedef struct Placement {
     Transform outer;
     const TextureDesc *texture;      // of the nearest object around that has one, else #default's
     Transform texture_outer;         // of the texture
+    const TextureDesc *inner;        // likewise of what is seen from inside, or NULL: as from outside
+    Transform inner_outer;           // of that
     const InteriorDesc *interior;    // of the nearest one that has one, or NULL
     uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
@@ -33,6 +35,9 @@ typedef struct Placement {
 
 // Whether there is room, by count and memory, for one more object. False after a report.
 bool place_may_add(Eval *ev, Span span) RT_MUST_CHECK;
+
+// Whether a texture of a shape asks where on it a point is.
+bool placement_asks_uv(const Placement *at);
 
 // HiddenFrom bits of what an object says.
 uint8_t place_hidden(const ObjectPart *part);

@@ -139,7 +139,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
         return eval_fault(ev, DIAG_E0362, common->span,
                           "a bicubic_patch has no inside, and POV-Ray does not clip it: nothing can be cut with it");
     }
-    bool keeps_turn = !branch->is_unseen && kind == KIND_SPHERE && texture_asks_uv(around->texture);
+    bool keeps_turn = !branch->is_unseen && kind == KIND_SPHERE && placement_asks_uv(around);
     ShapeResult result = shape_make(ev, kind, object, &around->outer, keeps_turn, &primitive);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING && grow_nothing(ev, kind, common, branch);
@@ -240,6 +240,10 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
     if (part->texture) {
         branch.placement.texture = part->texture;
         branch.placement.texture_outer = outer->placement.outer;
+    }
+    if (part->inner) {
+        branch.placement.inner = part->inner;
+        branch.placement.inner_outer = outer->placement.outer;
     }
     branch.placement.interior = part->interior ? part->interior : outer->placement.interior;
     if (part->interior && outer->parent != NODE_NONE && !outer->is_inside) {

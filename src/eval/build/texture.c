@@ -267,6 +267,36 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
            (!block->on_surface || texture_put_on_surface(ev, block->arena, texture, true, item->span));
 }
 
+// ---- what is seen from inside
+
+const TextureDesc **inner_texture_place(Block *block)
+{
+    return block->kind == KIND_MATERIAL        ? &block->record->material.inner
+           : schema_kind(block->is)->is_object ? &block->record->part.inner
+                                               : NULL;
+}
+
+bool inner_texture_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    (void)property;
+    const TextureDesc **place = inner_texture_place(block);
+    TextureDesc *texture = arena_copy(block->arena, block->ev->objects->defaults, sizeof *texture);
+    if (!texture) {
+        return eval_no_memory(block->ev, item->span);
+    }
+    const TextureDesc *before = *place;
+    *place = texture;
+    return read_texture(block->ev, item, block->arena, before, texture) &&
+           (!block->on_surface || texture_put_on_surface(block->ev, block->arena, texture, true, item->span));
+}
+
+bool inner_texture_fits(Block *block)
+{
+    const ObjectPart *part = &block->record->part;
+    return !part->inner || part->texture ||
+           block_fault(block, DIAG_E0253, block->node->span, "`interior_texture` needs a texture for the outside");
+}
+
 // The layers of one kind of tile, up to `tile2` or the end.
 static bool read_tile(Block *block, Cursor *cursor, Span span, const TextureDesc **texture)
 {

@@ -9,6 +9,19 @@
 
 #include "eval/build/blocks.h"
 
+static bool move_texture(Block *block, const TextureDesc **place, const Transform *transform)
+{
+    if (place && *place) {
+        TextureDesc *texture = arena_copy(block->arena, *place, sizeof *texture);
+        if (!texture) {
+            return eval_no_memory(block->ev, block->node->span);
+        }
+        texture_transform(texture, transform);
+        *place = texture;
+    }
+    return true;
+}
+
 // An object's texture moves with it, and so do its clips.
 bool block_transform(Block *block, const Transform *transform)
 {
@@ -22,16 +35,9 @@ bool block_transform(Block *block, const Transform *transform)
     if (block->is == KIND_FOG) {
         block->record->fog.up = transform_direction(transform, block->record->fog.up);
     }
-    const TextureDesc **place = texture_place(block);
-    if (place && *place) {
-        TextureDesc *texture = arena_copy(block->arena, *place, sizeof *texture);
-        if (!texture) {
-            return eval_no_memory(block->ev, block->node->span);
-        }
-        texture_transform(texture, transform);
-        *place = texture;
-    }
-    return !schema_kind(block->is)->is_object || clips_transform(block, transform);
+    return move_texture(block, texture_place(block), transform) &&
+           move_texture(block, inner_texture_place(block), transform) &&
+           (!schema_kind(block->is)->is_object || clips_transform(block, transform));
 }
 
 static bool read_vector(Block *block, const char *word, Span word_span, Vec3 *vector, Span *span)

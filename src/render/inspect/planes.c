@@ -58,7 +58,7 @@ static void put_three(void *plane, size_t pixel, double a, double b, double c)
 static void put_surface(const Prepared *p, const Film *film, size_t pixel, Ray ray, Hit hit)
 {
     void *const *planes = film->planes;
-    Surface surface = geometry_surface(p->geometry, TRACE_ALL_FEATURES, ray, hit);
+    Surface surface = shade_surface_met(p, TRACE_ALL_FEATURES | RENDER_TEXTURES, ray, hit);
     if (planes[FILM_DEPTH]) {
         ((float *)planes[FILM_DEPTH])[pixel] = (float)(hit.t * vec3_length(ray.direction) * p->textures.scale);
     }

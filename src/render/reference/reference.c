@@ -49,7 +49,7 @@ static bool lights_are_covered(const Scene *scene, const Prepared *p, DiagSink *
 static bool compound_is_plain(const Scene *scene, const Compound *compound)
 {
     const Texture *texture = &scene->textures.items[compound->texture];
-    return texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE &&
+    return compound->inner == RECORD_NONE && texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE &&
            texture->pigment.pattern == RECORD_NONE && texture->normal == RECORD_NONE;
 }
 

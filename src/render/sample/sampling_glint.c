@@ -104,7 +104,7 @@ static bool facet_at(const Prepared *p, const Film *film, double x, double y, Fa
         !extent_first(p->geometry, ray, &facet->hit, &facet->surface)) {
         return false;
     }
-    MaterialIndex material = facet->surface.material;
+    MaterialIndex material = shade_side(p, facet->surface.material, facet->surface.normal, ray.direction);
     ShapeKind kind = shape_kind(facet->hit.shape);
     facet->direction = ray.direction;
     facet->normal = facet->hit.inside ? vec3_neg(facet->surface.normal) : facet->surface.normal;

@@ -223,6 +223,22 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
     return bumps.sum.light;
 }
 
+// ---- sides
+
+MaterialIndex shade_side(const Prepared *p, MaterialIndex material, Vec3 normal, Vec3 direction)
+{
+    MaterialIndex inner =
+        material & MATERIAL_COMPOUND ? p->compounds[material & ~MATERIAL_COMPOUND].inner : RECORD_NONE;
+    return inner != RECORD_NONE && vec3_dot(normal, direction) > 0.0 ? inner : material;
+}
+
+// The same of a compound; NULL where it looks plain.
+static const Compound *compound_side(const Prepared *p, const Surface *surface, Vec3 direction)
+{
+    MaterialIndex side = shade_side(p, surface->material, surface->normal, direction);
+    return side & MATERIAL_COMPOUND ? &p->compounds[side & ~MATERIAL_COMPOUND] : NULL;
+}
+
 // ---- caustics
 
 typedef struct CausticSum {
@@ -239,9 +255,10 @@ static Rgb gather_layer(void *client, const TextureLayer *layer)
 }
 
 // The factor 45 is POV-Ray's, found by fitting pictures to 1/65535.
-Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape, Vec3 direction)
+Rgb shade_caustics(const Prepared *p, const Surface *surface, ShapeId shape, Vec3 direction)
 {
     Vec3 room;
+    const Compound *compound = compound_side(p, surface, direction); // of its interior, so it is there
     const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
     Vec3 normal = vec3_dot(surface->normal, direction) > 0.0 ? vec3_neg(surface->normal) : surface->normal;
     CausticSum sum = {normal, direction, 45.0 * p->interiors[compound->interior].caustics};
@@ -249,10 +266,14 @@ Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *s
     return texture_walk(&p->textures, compound->texture, sight, 0.0, gather_layer, &sum).light;
 }
 
-Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape,
-                         Vec3 direction)
+Rgb shade_layers_through(const Prepared *p, const Surface *surface, ShapeId shape, Vec3 direction)
 {
     Vec3 room;
+    const Compound *compound = compound_side(p, surface, direction);
+    if (!compound) {
+        MaterialIndex side = shade_side(p, surface->material, surface->normal, direction);
+        return texture_pigment_through(material_pigment(&p->materials[side]));
+    }
     const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
     bool turns = p->textures.faces && vec3_dot(surface->normal, direction) > 0.0;
     Vec3 normal = turns ? vec3_neg(surface->normal) : surface->normal;

@@ -196,7 +196,7 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Sta
     if (hit.shape == SHAPE_NONE) {
         return false;
     }
-    Surface surface = geometry_surface(p->geometry, features, now->ray, hit);
+    Surface surface = shade_surface_met(p, features, now->ray, hit);
     Vec3 normal = hit.inside ? vec3_neg(surface.normal) : surface.normal;
     bool has_interiors = features & RENDER_INTERIORS;
     *at = (ShadingPoint){.point = surface.point,

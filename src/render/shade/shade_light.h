@@ -81,6 +81,19 @@ RT_ALWAYS_INLINE uint32_t shade_interior(const Prepared *p, MaterialIndex materi
     return material & MATERIAL_COMPOUND ? p->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
 }
 
+// What a material looks like to a ray: from inside, where that goes along the normal, it may be another. In compound.c.
+MaterialIndex shade_side(const Prepared *p, MaterialIndex material, Vec3 normal, Vec3 direction);
+
+// The surface where a ray met something, as it looks to it.
+RT_ALWAYS_INLINE Surface shade_surface_met(const Prepared *p, unsigned features, Ray ray, Hit hit)
+{
+    Surface surface = geometry_surface(p->geometry, features, ray, hit);
+    if ((features & RENDER_TEXTURES) && RT_UNLIKELY(p->textures.has_sides)) {
+        surface.material = shade_side(p, surface.material, surface.normal, ray.direction);
+    }
+    return surface;
+}
+
 // What an interior leaves of light that comes out of it.
 RT_ALWAYS_INLINE Rgb shade_faded(const Prepared *p, uint32_t interior, double way)
 {
@@ -105,11 +118,11 @@ RT_ALWAYS_INLINE Rgb shade_shadow_crossed(const Prepared *p, const Surface *surf
                : rgb_grey(1.0);
 }
 
-// What a surface whose interior has caustics multiplies light with that goes through it. In compound.c.
-Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape, Vec3 direction);
+// What a surface whose interior has caustics multiplies light with that goes through it, on the side that the light
+// meets. In compound.c.
+Rgb shade_caustics(const Prepared *p, const Surface *surface, ShapeId shape, Vec3 direction);
 // The same of any other compound.
-Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape,
-                         Vec3 direction);
+Rgb shade_layers_through(const Prepared *p, const Surface *surface, ShapeId shape, Vec3 direction);
 
 // What a surface multiplies light with that goes through it in a direction.
 RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface, ShapeId shape,
@@ -119,9 +132,9 @@ RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features,
         const Compound *compound = &p->compounds[surface->material & ~MATERIAL_COMPOUND];
         if ((features & RENDER_INTERIORS) && compound->interior != RECORD_NONE &&
             p->interiors[compound->interior].caustics != 0.0) {
-            return shade_caustics(p, compound, surface, shape, direction);
+            return shade_caustics(p, surface, shape, direction);
         }
-        return shade_layers_through(p, compound, surface, shape, direction);
+        return shade_layers_through(p, surface, shape, direction);
     }
     return texture_pigment_through(material_pigment(&p->materials[surface->material]));
 }

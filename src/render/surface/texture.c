@@ -45,6 +45,16 @@ static bool any_pattern(const Scene *scene, bool (*holds)(const Pattern *pattern
     return false;
 }
 
+// Whether something looks otherwise from inside.
+static bool has_sides(const Scene *scene)
+{
+    bool has = false;
+    for (size_t i = 0; i < scene->compounds.count && !has; i++) {
+        has = scene->compounds.items[i].inner != RECORD_NONE;
+    }
+    return has;
+}
+
 static bool asks_surface(const Pattern *pattern)
 {
     return pattern_info((PatternType)pattern->type)->is_of_surface;
@@ -242,6 +252,8 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
         table->warp_back[i] = way_back(&scene->warps.items[i].to_outside);
     }
     table->faces = any_pattern(scene, asks_surface);
+    table->has_sides = has_sides(scene);
+    table->is_walked = table->faces || table->has_sides;
     table->goes_abreast = any_pattern(scene, pattern_goes_abreast);
     for (size_t i = 0; i < scene->patterns.count; i++) {
         table->to_pattern[i] = way_back(&scene->patterns.items[i].to_world);

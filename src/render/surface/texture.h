@@ -36,6 +36,8 @@ struct TextureTable {
     Arena along;                                                                 // what these refer to
     Transform *warp_back; // for each of its warps
     bool faces;           // some pattern asks how a surface lies
+    bool has_sides;       // something looks otherwise from inside
+    bool is_walked;       // one of these: each texture is
 };
 
 // Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what
@@ -136,9 +138,8 @@ TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Texture
 static inline const Texture *texture_single(const TextureTable *table, uint32_t index)
 {
     const Texture *texture = &table->scene->textures.items[index];
-    bool is_single =
-        texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE &&
-        !table->faces;
+    bool is_single = texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE &&
+                     texture->normal == RECORD_NONE && !table->is_walked;
     return is_single && !texture_is_on_surface(table, index) ? texture : NULL;
 }
 
