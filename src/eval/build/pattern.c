@@ -10,20 +10,38 @@
 #include "base/number.h"
 #include "eval/build/blocks.h"
 
-// The pattern that alone knows a word.
-static PatternType owner_of(Symbol word)
+// The patterns that alone know a word, as messages name them; NULL for what all know.
+static const char *owners_of(Symbol word, const Pattern *pattern, bool *is_one)
 {
+    PatternType type = (PatternType)pattern->type;
+    bool is_fractal = type == PATTERN_MANDEL || type == PATTERN_JULIA;
     switch ((Word)word) {
     case W_form:
     case W_metric:
     case W_offset:
-    case W_solid: return PATTERN_CRACKLE;
+    case W_solid:
+        *is_one = type == PATTERN_CRACKLE;
+        return "`crackle`";
     case W_control0:
-    case W_control1: return PATTERN_QUILTED;
-    case W_agate_turb: return PATTERN_AGATE;
+    case W_control1:
+        *is_one = type == PATTERN_QUILTED;
+        return "`quilted`";
+    case W_agate_turb:
+        *is_one = type == PATTERN_AGATE;
+        return "`agate`";
     case W_mortar:
-    case W_brick_size: return PATTERN_BRICK;
-    default: return PATTERN_NONE;
+    case W_brick_size:
+        *is_one = type == PATTERN_BRICK;
+        return "`brick`";
+    case W_exterior:
+    case W_interior:
+        *is_one = is_fractal;
+        return "`mandel`, `julia` or `magnet`";
+    case W_exponent:
+        *is_one = is_fractal && pattern->magnet == 0;
+        return "`mandel` or `julia`";
+    default:
+        return NULL;
     }
 }
 
@@ -38,8 +56,10 @@ static bool is_of_pattern(const SchemaProperty *property)
     case ACTION_PICTURE:
     case ACTION_WARP:
     case ACTION_PATTERN_SOLID:
+    case ACTION_FRACTAL:
     case ACTION_WAVE:
-    case ACTION_MAP: return true;
+    case ACTION_MAP:
+        return true;
     default:
         return property->action == ACTION_NONE && property->at >= offsetof(PatternPart, pattern) &&
                property->at < offsetof(PatternPart, pattern) + sizeof(Pattern);
@@ -50,11 +70,11 @@ static bool is_of_pattern(const SchemaProperty *property)
 static bool fits_texture(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     bool is_word = is_of_pattern(property);
-    bool is_part = property->action == ACTION_PIGMENT || property->action == ACTION_NORMAL ||
-                   property->action == ACTION_FINISH;
+    bool is_part =
+        property->action == ACTION_PIGMENT || property->action == ACTION_NORMAL || property->action == ACTION_FINISH;
     bool has_pattern = block->has_name && block->record->patterned.pattern.type != PATTERN_NONE;
-    block->is_plain = block->is_plain || block->has_name ||
-                      (!block->is_patterned && (is_part || schema_is_transform(property)));
+    block->is_plain =
+        block->is_plain || block->has_name || (!block->is_patterned && (is_part || schema_is_transform(property)));
     block->is_patterned = block->is_patterned || (is_word && !block->is_plain);
     if (is_part && (block->is_patterned || has_pattern)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand in a texture that begins with a pattern",
@@ -74,10 +94,10 @@ bool pattern_allows(Block *block, const SchemaProperty *property, const AstNode 
     if (block->has_unsupported) {
         return true;
     }
-    PatternType type = (PatternType)block->record->patterned.pattern.type, owner = owner_of(item->symbol);
-    if (owner != PATTERN_NONE && owner != type && is_of_pattern(property)) {
-        return block_fault(block, DIAG_E0256, item->span, "`%s` can stand only beside `%s`", property->word,
-                           pattern_info(owner)->word);
+    bool is_one = false;
+    const char *owners = owners_of(item->symbol, &block->record->patterned.pattern, &is_one);
+    if (owners && !is_one && item->kind == AST_WORD && is_of_pattern(property)) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` can stand only beside %s", property->word, owners);
     }
     return block->kind != KIND_TEXTURE || fits_texture(block, property, item);
 }
@@ -499,6 +519,5 @@ bool pattern_close(Block *block)
     }
     TextureDesc *texture = &block->record->texture;
     return surface_close(block, &texture->part) &&
-           (!block->on_surface ||
-            texture_put_on_surface(block->ev, block->arena, texture, false, block->node->span));
+           (!block->on_surface || texture_put_on_surface(block->ev, block->arena, texture, false, block->node->span));
 }
