@@ -73,6 +73,7 @@ typedef struct PatternedPigment {
 
 enum {
     NORMAL_KEEPS_LENGTH = 1, // the depth of the bumps is not scaled along: no normal is made of length 1 on the way
+    NORMAL_IS_TURNED = 2,    // the only entry lies on a surface, and this turns it in space
 };
 
 // Bumps: what turns a surface's normal from place to place. Alone, amount × the pattern's height; or what other normals

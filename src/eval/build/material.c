@@ -264,7 +264,7 @@ static bool turn_normal(const Builder *builder, const Transform *to_world, uint3
         .amount = number_single(plain->amount),
         .accuracy = number_single(plain->accuracy),
         .slopes = RECORD_NONE,
-        .flags = flags,
+        .flags = flags | NORMAL_IS_TURNED,
     };
     record.pattern.type = PATTERN_AVERAGE;
     return (scene_add_normal_entry(builder->scene, &entry, &record.entries) &&

@@ -191,6 +191,11 @@ static bool lay_over(Eval *ev, Arena *arena, TextureDesc *top, const TextureDesc
         if (layer->part.pattern.type != PATTERN_NONE || below->part.pattern.type != PATTERN_NONE) {
             return eval_fault(ev, DIAG_E0290, span, "a pattern of textures can be no layer");
         }
+        if (layer->part.turns || below->part.turns) {
+            return eval_fault(ev, DIAG_E0290, span,
+                              "a texture that begins with `uv_mapping` can be no layer: its "
+                              "pigment can");
+        }
         if (makes_filters_clear(ev) && !take_filters(ev, arena, &layer->pigment, span)) {
             return false;
         }
@@ -229,9 +234,12 @@ static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const Text
 static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena *arena, TextureDesc *texture)
 {
     switch (action) {
-    case ACTION_PIGMENT: return read_pigment(ev, item, arena, texture);
-    case ACTION_NORMAL: return read_normal(ev, item, arena, texture);
-    default: return read_finish(ev, item, arena, texture);
+    case ACTION_PIGMENT:
+        return read_pigment(ev, item, arena, texture);
+    case ACTION_NORMAL:
+        return read_normal(ev, item, arena, texture);
+    default:
+        return read_finish(ev, item, arena, texture);
     }
 }
 
@@ -263,8 +271,7 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
     *place = texture;
     bool is_read = property->action == ACTION_TEXTURE ? read_texture(ev, item, block->arena, before, texture)
                                                       : read_part(ev, property->action, item, block->arena, texture);
-    return is_read &&
-           (!block->on_surface || texture_put_on_surface(ev, block->arena, texture, true, item->span));
+    return is_read && (!block->on_surface || texture_put_on_surface(ev, block->arena, texture, true, item->span));
 }
 
 // ---- what is seen from inside
@@ -481,10 +488,14 @@ void texture_take_part(TextureDesc *texture, SchemaKind kind, const void *part)
 static bool read_default(Eval *ev, const AstNode *item, TextureDesc *texture)
 {
     switch (block_kind(ev, item)) {
-    case KIND_TEXTURE: return read_texture(ev, item, &ev->program, NULL, texture);
-    case KIND_PIGMENT: return read_pigment(ev, item, &ev->program, texture);
-    case KIND_NORMAL: return read_normal(ev, item, &ev->program, texture);
-    case KIND_FINISH: return read_finish(ev, item, &ev->program, texture);
+    case KIND_TEXTURE:
+        return read_texture(ev, item, &ev->program, NULL, texture);
+    case KIND_PIGMENT:
+        return read_pigment(ev, item, &ev->program, texture);
+    case KIND_NORMAL:
+        return read_normal(ev, item, &ev->program, texture);
+    case KIND_FINISH:
+        return read_finish(ev, item, &ev->program, texture);
     default:
         return eval_fault(ev, DIAG_E0256, item->span, "#default holds texture, pigment, normal and finish blocks only");
     }

@@ -145,8 +145,14 @@ static NormalPlace place_of(const TextureLayer *layer)
 
 Vec3 texture_normal_inside(const TextureLayer *layer, Vec3 normal)
 {
+    const Scene *scene = layer->table->scene;
     Vec3 inner = into(layer->table, layer->place, normal);
-    return unit_or(turned(layer->table, layer->normal, place_of(layer), inner, false), inner);
+    uint32_t index = layer->normal;
+    if (scene->normals.items[index].flags & NORMAL_IS_TURNED) {
+        inner = unit_or(transform_normal(&scene->normals.items[index].to_world, inner), inner);
+        index = scene->normal_entries.items[scene->normals.items[index].entries].normal;
+    }
+    return unit_or(turned(layer->table, index, place_of(layer), inner, false), inner);
 }
 
 Vec3 texture_normal(const TextureLayer *layer, Vec3 normal)

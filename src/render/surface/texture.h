@@ -146,7 +146,8 @@ static inline const Texture *texture_single(const TextureTable *table, uint32_t 
 // The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1.
 // In normal.c.
 Vec3 texture_normal(const TextureLayer *layer, Vec3 normal);
-// The same in the space of the pattern of textures around the layer, if there is one.
+// The same as a pattern of the layer sees it: in the space of the pattern of textures around it, if there is one, and of
+// what lies on a surface before its texture was turned. Measured.
 Vec3 texture_normal_inside(const TextureLayer *layer, Vec3 normal);
 // What one of the scene's normals makes of a direction of length 1 at a point in the scene's lengths.
 Vec3 texture_bent(const TextureTable *table, uint32_t normal, Vec3 point, Vec3 direction);
