@@ -88,12 +88,18 @@ typedef struct AstBuilder {
     AstNode dummy; // zeros to begin with
 } AstBuilder;
 
+// What a node is, without its children.
+typedef struct AstHead {
+    AstKind kind;
+    AstOp op;
+    Symbol symbol;
+    Span span;
+} AstHead;
+
 // A node of any kind with up to three children (each NULL or complete).
-AstNode *ast_node(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstNode *a, AstNode *b,
-                  AstNode *c);
+AstNode *ast_node(AstBuilder *builder, AstHead head, AstNode *a, AstNode *b, AstNode *c);
 // The same with a list as child a, and b or c as further lists by their first elements; depths are taken from all.
-AstNode *ast_node_list(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstList a, AstList b,
-                       AstList c);
+AstNode *ast_node_list(AstBuilder *builder, AstHead head, AstList a, AstList b, AstList c);
 AstNode *ast_number(AstBuilder *builder, double number, Span span);
 // Of so many items, see ast/pack.h, which are copied.
 AstNode *ast_packed(AstBuilder *builder, const uint8_t *widths, uint32_t count, const double *numbers,

@@ -270,7 +270,8 @@ static void ask_closest(const SphereTable *table, const SphereRay *ray, uint32_t
     }
     if (is_met) {
         const SphereAnswer *answer = &asked->answer;
-        nearest_offer_tie(table, ray, asked->slot, &answer->ball, answer->t, answer->inside, false, nearest);
+        const SphereRoot root = {asked->slot, answer->ball, answer->t, answer->inside, false};
+        nearest_offer_tie(table, ray, &root, nearest);
     }
 }
 

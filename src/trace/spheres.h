@@ -322,40 +322,53 @@ RT_ALWAYS_INLINE double nearest_limit(double t_max)
 // order.
 #define SPHERE_TIE 0x1p-51
 
+// A root of a sphere of the table.
+typedef struct SphereRoot {
+    uint32_t slot;
+    SphereData ball;
+    double t;
+    bool inside;
+    bool is_approximate; // sphere_test's
+} SphereRoot;
+
 // A sphere that is met about where another one is, which the roots must tell apart once they are refined. Equal roots
 // are those of equal spheres, or as good as equal: then the order of declaration decides.
-RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, uint32_t slot, const SphereData *ball,
-                                 double t, bool inside, bool is_approximate, Nearest *nearest)
+RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, const SphereRoot *root,
+                                 Nearest *nearest)
 {
+    const SphereData *ball = &root->ball;
+    uint32_t order_own = table->info[root->slot].order;
     nearest_settle(table, ray, nearest);
-    t = is_approximate ? sphere_refine(ray, ball, t) : t;
+    double t = root->is_approximate ? sphere_refine(ray, ball, root->t) : root->t;
     bool is_nearer = t < nearest->hit.t;
     if (t > 0.0 && nearest->hit.shape != SHAPE_NONE) {
         SphereData other = sphere_table_ball(table, shape_index(nearest->hit.shape));
         if (fabs(t - nearest->hit.t) <= SPHERE_TIE * nearest->hit.t || vec3_equal(ball->centre, other.centre)) {
-            int order = sphere_roots_compare(ray, ball, inside, &other, nearest->hit.inside, t);
-            is_nearer = order < 0 || (order == 0 && table->info[slot].order < nearest->order);
+            int order = sphere_roots_compare(ray, ball, root->inside, &other, nearest->hit.inside, t);
+            is_nearer = order < 0 || (order == 0 && order_own < nearest->order);
         }
     }
     if (t > 0.0 && is_nearer) {
-        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, false};
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, root->slot), root->inside}, order_own, false};
     }
 }
 
-// A sphere that is met, by sphere_test (t is approximate) or by sphere_exact. Roots are refined only where approximate
+// A sphere that is met, by sphere_test or by sphere_exact. Roots are refined only where approximate
 // ones could be taken in the wrong order, so in the end the same sphere is nearest as if all had been.
-RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const SphereRay *ray, uint32_t slot,
-                                           const SphereData *ball, double t, bool inside, bool is_approximate,
+RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const SphereRay *ray, const SphereRoot *root,
                                            Nearest *nearest)
 {
+    double t = root->t;
     double slack = SPHERE_ROOT_SLACK * nearest->hit.t;
     if (!(t > 0.0) || t > nearest->hit.t + slack) {
         return;
     }
     if (RT_LIKELY(t < nearest->hit.t - slack || isinf(nearest->hit.t))) {
-        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, is_approximate};
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, root->slot), root->inside},
+                             table->info[root->slot].order,
+                             root->is_approximate};
     } else {
-        nearest_offer_tie(table, ray, slot, ball, t, inside, is_approximate, nearest);
+        nearest_offer_tie(table, ray, root, nearest);
     }
 }
 

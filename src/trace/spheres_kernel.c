@@ -106,17 +106,15 @@ RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, co
         unsigned at = (unsigned)__builtin_ctz(hits.met);
         hits.met &= hits.met - 1;
         uint32_t slot = block * SPHERE_BLOCK + at;
-        SphereData ball = sphere_table_ball(table, slot);
-        bool inside = hits.inside >> at & 1;
-        double t = hits.t[at];
-        bool is_approximate = !(hits.doubtful >> at & 1);
-        if (sphere_data_equal(&ball, &start->ball)) {
+        SphereRoot root = {slot, sphere_table_ball(table, slot), hits.t[at], hits.inside >> at & 1,
+                           !(hits.doubtful >> at & 1)};
+        if (sphere_data_equal(&root.ball, &start->ball)) {
             continue;
         }
-        if (RT_UNLIKELY(!is_approximate)) {
-            t = sphere_exact(ray, &ball, &start->ball, &inside);
+        if (RT_UNLIKELY(!root.is_approximate)) {
+            root.t = sphere_exact(ray, &root.ball, &start->ball, &root.inside);
         }
-        nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_approximate, nearest);
+        nearest_offer_sphere(table, ray, &root, nearest);
     } while (hits.met);
     return true;
 }

@@ -221,11 +221,11 @@ RT_SELDOM void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, 
     Nearest nearest = {{hits->t[i], before, hits->inside & bit},
                        before == SHAPE_NONE ? 0 : beam->table->info[shape_index(before)].order,
                        beam->approximate & bit};
-    bool inside = sphere->c < 0.0;
+    SphereRoot root = {sphere->slot, sphere->ball, t, sphere->c < 0.0, !is_uncertain};
     if (RT_UNLIKELY(is_uncertain)) {
-        t = sphere_exact(&ray, &sphere->ball, NULL, &inside);
+        root.t = sphere_exact(&ray, &sphere->ball, NULL, &root.inside);
     }
-    nearest_offer_sphere(beam->table, &ray, sphere->slot, &sphere->ball, t, inside, !is_uncertain, &nearest);
+    nearest_offer_sphere(beam->table, &ray, &root, &nearest);
     tile_hit_set(hits, i, &nearest.hit);
     beam->shape[i] = nearest.hit.shape;
     beam->has_news = true;

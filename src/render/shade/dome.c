@@ -89,7 +89,8 @@ static Rgb share_of_side(const Prepared *p, const ShadingPoint *at, Vec3 normal,
         own.index = (uint32_t)i;
         own.pair = 0;
         Vec3 towards = dome_direction(normal, exponent, sample_next(at->stream ? at->stream : &own));
-        sum = rgb_add(sum, shade_visibility(p, FEATURES, at, NULL, towards, (double)INFINITY, &blocker, statistics));
+        const ShadeWay way = {.towards = towards, .distance = (double)INFINITY};
+        sum = rgb_add(sum, shade_visibility(p, FEATURES, at, &way, &blocker, statistics));
     }
     return rgb_scale(1.0 / ways, sum);
 }
