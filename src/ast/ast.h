@@ -122,9 +122,8 @@ AstNode *ast_clone(const AstNode *node, Arena *arena) RT_MUST_CHECK;
 bool ast_equal(const AstNode *one, const AstNode *other);
 
 // Appends one item as canonical `.scn` text that parses to an equal tree, indented by `indent` steps of two blanks and
-// ended by a newline. ast_print_expression writes it without indentation and newline.
+// ended by a newline.
 void ast_print(const AstNode *item, const InternTable *names, int indent, TextBuffer *out);
-void ast_print_expression(const AstNode *node, const InternTable *names, TextBuffer *out);
 
 const char *ast_kind_name(AstKind kind);
 const char *ast_op_spelling(AstOp op);

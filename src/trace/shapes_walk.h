@@ -24,9 +24,9 @@ static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Forem
     }
 }
 
-// ---- a curve, whose first root the test in lanes tells; see curve_lanes.h
+// ---- a curve, whose first root the test in lanes finds; see curve_lanes.h
 
-// The same for one ray: whether it is told, and then where it is; `along` as in CurveFirst. *is_missed: for certain.
+// The same for one ray: whether it is found, and then where it is; `along` as in CurveFirst. *is_missed: for certain.
 static __attribute__((noinline)) bool curve_first(const PreparedPrimitive *primitive, const Ray *object, double *t,
                                                   double *along, bool *is_missed)
 {
@@ -45,7 +45,7 @@ static __attribute__((noinline)) bool curve_first(const PreparedPrimitive *primi
     return true;
 }
 
-// All intervals, the root that is told in its place.
+// All intervals, with the root that the test in lanes finds in its place.
 static unsigned curve_intervals(const PreparedPrimitive *primitive, const Ray *object, RayInterval *intervals)
 {
     double t, along;
@@ -276,8 +276,8 @@ static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t in
     if (shapes_are_abandoned(q->table)) {
         return; // a line through a polynomial takes up to a millisecond
     }
-    bool is_told = left.side == SIDE_NONE && primitive_is_curve(primitive);
-    unsigned count = is_told ? curve_intervals(primitive, object, intervals)
+    bool by_lanes = left.side == SIDE_NONE && primitive_is_curve(primitive);
+    unsigned count = by_lanes ? curve_intervals(primitive, object, intervals)
                              : primitive_intervals(primitive, object, left, intervals);
     if (count == 0) {
         return;

@@ -55,7 +55,7 @@ RT_ALWAYS_INLINE bool sphere_table_is_few(const SphereTable *table)
 }
 
 // The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE. While `is_approximate`,
-// hit.t is a sphere's root as sphere_test gives it; nearest_settle makes it right.
+// hit.t is a sphere's root as sphere_test gives it; nearest_refine makes it right.
 typedef struct Nearest {
     Hit hit;
     uint32_t order; // of hit.shape
@@ -101,7 +101,8 @@ typedef struct TileSurfaces {
 // Rays from surfaces to a point, or to places no farther than `aside` from it.
 typedef struct SurfaceRays {
     Vec3 end;
-    double aside, farthest; // no distance is greater
+    double end_radius; // no ray ends farther from `end`
+    double farthest;   // no distance is greater
     _Alignas(64) double towards[3][TILE_RAYS]; // of about unit length
     double distance[TILE_RAYS];
 } SurfaceRays;
@@ -303,7 +304,7 @@ RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, b
 }
 
 // Refines an approximate root.
-RT_ALWAYS_INLINE void nearest_settle(const SphereTable *table, const SphereRay *ray, Nearest *nearest)
+RT_ALWAYS_INLINE void nearest_refine(const SphereTable *table, const SphereRay *ray, Nearest *nearest)
 {
     if (nearest->is_approximate) {
         SphereData ball = sphere_table_ball(table, shape_index(nearest->hit.shape));
@@ -338,7 +339,7 @@ RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray,
 {
     const SphereData *ball = &root->ball;
     uint32_t order_own = table->info[root->slot].order;
-    nearest_settle(table, ray, nearest);
+    nearest_refine(table, ray, nearest);
     double t = root->is_approximate ? sphere_refine(ray, ball, root->t) : root->t;
     bool is_nearer = t < nearest->hit.t;
     if (t > 0.0 && nearest->hit.shape != SHAPE_NONE) {
