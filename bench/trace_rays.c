@@ -156,7 +156,7 @@ static void make_tile_shadows(const Geometry *g, TileSet *set, size_t at)
         geometry_tile_surfaces(g, TRACE_SPHERES, &set->tiles[at], &hits, hits.met, surfaces, material);
     }
     rays->end = light;
-    rays->aside = 0;
+    rays->end_radius = 0;
     for (int i = 0; i < surfaces->count; i++) {
         Vec3 offset = vec3_sub(light, tile_surface_point(surfaces, i));
         rays->distance[i] = vec3_length(offset);

@@ -248,7 +248,7 @@ void grammar_fragment_token(GrammarState *state, Token *token)
 
 AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span)
 {
-    AstNode *node = ast_node(&state->builder, AST_NAME, AST_OP_NONE, symbol, span, NULL, NULL, NULL);
+    AstNode *node = ast_node(&state->builder, (AstHead){AST_NAME, AST_OP_NONE, symbol, span}, NULL, NULL, NULL);
     if (RT_UNLIKELY(state->feed != NULL)) {
         // With a token after it read, the name is the one before.
         const Token *token = state->current.span.begin == span.begin ? &state->current : &state->previous;
@@ -263,7 +263,7 @@ AstNode *grammar_call(GrammarState *state, AstNode *node)
     if (RT_LIKELY(state->feed == NULL) || !is_in_function(state)) {
         return grammar_fold(state, node);
     }
-    node->b = ast_node(&state->builder, AST_NAME, AST_OP_NONE, node->symbol, node->span, NULL, NULL, NULL);
+    node->b = ast_node(&state->builder, (AstHead){AST_NAME, AST_OP_NONE, node->symbol, node->span}, NULL, NULL, NULL);
     ast_flag(node->b, AST_KNOWN)->known = grammar_innermost(state)->callee;
     return node;
 }

@@ -136,7 +136,7 @@ static AstNode *component_node(GrammarState *state, const Component *component, 
         return ast_number(&state->builder, component->number, span);
     }
     AstNode *number = ast_number(&state->builder, component->number, (Span){span.begin + 1, span.end});
-    return ast_node(&state->builder, AST_UNARY, AST_OP_NEG, SYMBOL_NONE, span, number, NULL, NULL);
+    return ast_node(&state->builder, (AstHead){AST_UNARY, AST_OP_NEG, SYMBOL_NONE, span}, number, NULL, NULL);
 }
 
 // Where a `<` can begin nothing but a vector.
@@ -260,7 +260,7 @@ static const char *read_vector(GrammarState *state, const char *at, const char *
         list = ast_append(list, component_node(state, &components[i], at));
     }
     Span span = {state->offset, state->offset + (uint64_t)(after - at)};
-    state->node = ast_node_list(&state->builder, AST_VECTOR, AST_OP_NONE, SYMBOL_NONE, span, list, (AstList){0},
+    state->node = ast_node_list(&state->builder, (AstHead){AST_VECTOR, AST_OP_NONE, SYMBOL_NONE, span}, list, (AstList){0},
                                 (AstList){0});
     token->kind = TOKEN_VECTOR;
     return after;

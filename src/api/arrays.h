@@ -75,12 +75,9 @@ bool look_is_known(const rt_look *look);
 ArrayCheck look_check(const rt_look *look);
 Span shape_list_span(const ShapeList *list, size_t element);
 
-// Numbers the elements, and reads the finish; `open` looks at all of them, too. False after a fault, with nothing
-// taken.
+// Numbers the elements, and reads the finish. False after a fault, with nothing taken.
 bool shape_list_begin(ShapeList *list, rt_session *session, const char *name, size_t count, const ArrayCheck *checks,
                       int check_count, const rt_look *look) RT_MUST_CHECK;
-bool shape_list_open(ShapeList *list, rt_session *session, const char *name, size_t count, const ArrayCheck *checks,
-                     int check_count, const rt_look *look) RT_MUST_CHECK;
 // Whether so many more records may be taken; reports when not.
 bool shape_list_has_room(const ShapeList *list, size_t count, size_t bytes_each) RT_MUST_CHECK;
 // Warns that an element is not drawn.
@@ -96,10 +93,6 @@ rt_status session_misuse(rt_session *session, const char *message, const char *s
 
 // The same of a call that rt_begin_scene must come before.
 rt_status session_not_begun(rt_session *session, const char *function);
-
-// Evaluates a piece of text into a scene of its own, for what calls say in numbers; the scene is the caller's to
-// free. What the text says wrong is reported under the name. False after a fault.
-bool session_read_piece(rt_session *session, const char *name, const char *text, Scene *scene) RT_MUST_CHECK;
 
 // The finish that a text says, among the scene's; reports what is wrong with it.
 bool session_read_finish(rt_session *session, const char *finish, FinishIndex *index) RT_MUST_CHECK;

@@ -89,8 +89,9 @@ bool shape_list_begin(ShapeList *list, rt_session *session, const char *name, si
     return session_read_finish(session, look->finish, &list->finish);
 }
 
-bool shape_list_open(ShapeList *list, rt_session *session, const char *name, size_t count, const ArrayCheck *checks,
-                     int check_count, const rt_look *look)
+// The same, and looks at all of the elements.
+static bool shape_list_open(ShapeList *list, rt_session *session, const char *name, size_t count,
+                            const ArrayCheck *checks, int check_count, const rt_look *look)
 {
     return shape_list_begin(list, session, name, count, checks, check_count, look) &&
            arrays_are_fine(session, checks, check_count, count, list->base);

@@ -34,7 +34,9 @@ static rt_status read_piece(rt_session *session, void *argument)
                                                                                                    : RT_FAULT_SCENE;
 }
 
-bool session_read_piece(rt_session *session, const char *name, const char *text, Scene *scene)
+// Evaluates a piece of text into a scene of its own, for what calls say in numbers; the scene is the caller's to
+// free. What the text says wrong is reported under the name. False after a fault.
+static bool session_read_piece(rt_session *session, const char *name, const char *text, Scene *scene)
 {
     scene_init(scene);
     scene->settings = session->scene.settings;

@@ -66,31 +66,29 @@ static AstNode *new_node(AstBuilder *builder, AstNode content)
     return node;
 }
 
-AstNode *ast_node(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstNode *a, AstNode *b,
-                  AstNode *c)
+AstNode *ast_node(AstBuilder *builder, AstHead head, AstNode *a, AstNode *b, AstNode *c)
 {
     uint32_t depth = a ? a->depth : 0;
     depth = b ? greater(depth, b->depth) : depth;
     depth = c ? greater(depth, c->depth) : depth;
-    return new_node(builder, (AstNode){.kind = (uint8_t)kind,
-                                       .op = (uint8_t)op,
-                                       .symbol = symbol,
+    return new_node(builder, (AstNode){.kind = (uint8_t)head.kind,
+                                       .op = (uint8_t)head.op,
+                                       .symbol = head.symbol,
                                        .depth = depth + 1,
-                                       .span = span,
+                                       .span = head.span,
                                        .a = a,
                                        .b = b,
                                        .c = c});
 }
 
-AstNode *ast_node_list(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstList a, AstList b,
-                       AstList c)
+AstNode *ast_node_list(AstBuilder *builder, AstHead head, AstList a, AstList b, AstList c)
 {
-    return new_node(builder, (AstNode){.kind = (uint8_t)kind,
-                                       .op = (uint8_t)op,
-                                       .symbol = symbol,
+    return new_node(builder, (AstNode){.kind = (uint8_t)head.kind,
+                                       .op = (uint8_t)head.op,
+                                       .symbol = head.symbol,
                                        .depth = greater(a.depth, greater(b.depth, c.depth)) + 1,
                                        .count = a.count,
-                                       .span = span,
+                                       .span = head.span,
                                        .a = a.first,
                                        .b = b.first,
                                        .c = c.first});

@@ -88,12 +88,18 @@ typedef struct AstBuilder {
     AstNode dummy; // zeros to begin with
 } AstBuilder;
 
+// What a node is, without its children.
+typedef struct AstHead {
+    AstKind kind;
+    AstOp op;
+    Symbol symbol;
+    Span span;
+} AstHead;
+
 // A node of any kind with up to three children (each NULL or complete).
-AstNode *ast_node(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstNode *a, AstNode *b,
-                  AstNode *c);
+AstNode *ast_node(AstBuilder *builder, AstHead head, AstNode *a, AstNode *b, AstNode *c);
 // The same with a list as child a, and b or c as further lists by their first elements; depths are taken from all.
-AstNode *ast_node_list(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstList a, AstList b,
-                       AstList c);
+AstNode *ast_node_list(AstBuilder *builder, AstHead head, AstList a, AstList b, AstList c);
 AstNode *ast_number(AstBuilder *builder, double number, Span span);
 // Of so many items, see ast/pack.h, which are copied.
 AstNode *ast_packed(AstBuilder *builder, const uint8_t *widths, uint32_t count, const double *numbers,
@@ -116,9 +122,8 @@ AstNode *ast_clone(const AstNode *node, Arena *arena) RT_MUST_CHECK;
 bool ast_equal(const AstNode *one, const AstNode *other);
 
 // Appends one item as canonical `.scn` text that parses to an equal tree, indented by `indent` steps of two blanks and
-// ended by a newline. ast_print_expression writes it without indentation and newline.
+// ended by a newline.
 void ast_print(const AstNode *item, const InternTable *names, int indent, TextBuffer *out);
-void ast_print_expression(const AstNode *node, const InternTable *names, TextBuffer *out);
 
 const char *ast_kind_name(AstKind kind);
 const char *ast_op_spelling(AstOp op);

@@ -189,11 +189,6 @@ void printer_operand(Printer *printer, const AstNode *node, int precedence)
     printer_put(printer, closed ? ")" : "");
 }
 
-void ast_print_expression(const AstNode *node, const InternTable *names, TextBuffer *out)
-{
-    printer_operand(&(Printer){.names = names, .out = out}, node, PRECEDENCE_SUM);
-}
-
 // ---- Expressions side by side.
 
 static bool follows_bare(const AstNode *node)

@@ -60,12 +60,13 @@ static bool measure_scene(Stability *stability, const Options *options, const St
         motion.scale = cases[i].scale;
         memcpy(motion.shift, cases[i].shift, sizeof motion.shift);
         *row = (BreakRow){.scene = scene->name, .what = cases[i].what, .pixels = WIDTH * HEIGHT};
-        if (!motion_image(options, scene, &motion, WIDTH, HEIGHT, &row->ours)) {
-            return i == 0; // what cannot be read is told among the pictures
+        const MotionPicture picture = {options, scene, &motion, WIDTH, HEIGHT};
+        if (!motion_image(&picture, &row->ours)) {
+            return i == 0; // what cannot be read is reported among the pictures
         }
         stability->break_count++;
         row->off = pixels_off(first->ours.values, row->ours.values);
-        row->has_povray = povray && motion_povray(options, povray, folder, scene, &motion, WIDTH, HEIGHT, &row->povray);
+        row->has_povray = povray && motion_povray(&picture, povray, folder, &row->povray);
         row->povray_off = row->has_povray ? pixels_off(first->ours.values, row->povray.values) : row->pixels;
     }
     return true;

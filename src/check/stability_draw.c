@@ -9,11 +9,13 @@
 #include "peer/povray_run.h"
 
 // NULL when the scene cannot be read.
-static rt_session *motion_open(const Options *options, const StudyScene *scene, const Motion *motion, int width,
-                               int height)
+static rt_session *motion_open(const MotionPicture *picture)
 {
+    const Options *options = picture->options;
+    const StudyScene *scene = picture->scene;
+    const Motion *motion = picture->motion;
     rt_session *session = rt_session_new(NULL);
-    rt_status status = session ? rt_set_size(session, width, height) : RT_FAULT_LIMIT;
+    rt_status status = session ? rt_set_size(session, picture->width, picture->height) : RT_FAULT_LIMIT;
     for (int i = 0; !status && i < options->include_path_count; i++) {
         status = rt_add_include_path(session, options->include_paths[i]);
     }
@@ -30,23 +32,24 @@ static rt_session *motion_open(const Options *options, const StudyScene *scene, 
     return session;
 }
 
-bool motion_draw(const Options *options, const StudyScene *scene, const Motion *motion, int width, int height,
-                 float *values)
+bool motion_draw(const MotionPicture *picture, float *values)
 {
-    rt_session *session = motion_open(options, scene, motion, width, height);
-    bool is_drawn = session && rt_render(session, options->threads) == RT_OK;
+    rt_session *session = motion_open(picture);
+    bool is_drawn = session && rt_render(session, picture->options->threads) == RT_OK;
     if (is_drawn) {
-        memcpy(values, rt_pixels(session, &width, &height), 3 * (size_t)width * (size_t)height * sizeof *values);
+        int width, height;
+        const float *pixels = rt_pixels(session, &width, &height);
+        memcpy(values, pixels, 3 * (size_t)width * (size_t)height * sizeof *values);
     }
     rt_session_free(session);
     return is_drawn;
 }
 
-bool motion_image(const Options *options, const StudyScene *scene, const Motion *motion, int width, int height,
-                  Image *image)
+bool motion_image(const MotionPicture *picture, Image *image)
 {
+    int width = picture->width, height = picture->height;
     *image = (Image){width, height, 3, malloc(3 * (size_t)width * (size_t)height * sizeof(float))};
-    if (image->values && motion_draw(options, scene, motion, width, height, image->values)) {
+    if (image->values && motion_draw(picture, image->values)) {
         return true;
     }
     image_fini(image);
@@ -54,11 +57,10 @@ bool motion_image(const Options *options, const StudyScene *scene, const Motion 
 }
 
 // The scene where it was put, as text for POV-Ray. The size of the picture is in it where the scene asks for it.
-static bool write_scene(const Options *options, const StudyScene *scene, const Motion *motion, int width, int height,
-                        const char *path)
+static bool write_scene(const MotionPicture *picture, const char *path)
 {
     const char *text;
-    rt_session *session = motion_open(options, scene, motion, width, height);
+    rt_session *session = motion_open(picture);
     FILE *out = session && rt_dump_scene(session, &text) == RT_OK ? fopen(path, "wb") : NULL;
     bool is_written = out && fputs(text, out) != EOF;
     is_written = out && fclose(out) == 0 && is_written;
@@ -66,27 +68,27 @@ static bool write_scene(const Options *options, const StudyScene *scene, const M
     return is_written;
 }
 
-bool motion_povray(const Options *options, const char *povray, const char *folder, const StudyScene *scene,
-                   const Motion *motion, int width, int height, Image *image)
+bool motion_povray(const MotionPicture *picture, const char *povray, const char *folder, Image *image)
 {
-    char path[4096], picture[4096], log[4096], detail[256];
+    int width = picture->width, height = picture->height;
+    char path[4096], output[4096], log[4096], detail[256];
     snprintf(path, sizeof path, "%s/stability.pov", folder);
-    snprintf(picture, sizeof picture, "%s/stability.png", folder);
+    snprintf(output, sizeof output, "%s/stability.png", folder);
     snprintf(log, sizeof log, "%s/stability.log", folder);
     *image = (Image){0};
-    if (!write_scene(options, scene, motion, width, height, path)) {
+    if (!write_scene(picture, path)) {
         return false;
     }
     PovrayJob job = {.program = povray,
                      .scene = path,
-                     .output = picture,
+                     .output = output,
                      .log = log,
                      .width = width,
                      .height = height,
-                     .threads = options->threads};
+                     .threads = picture->options->threads};
     ImageError error;
     bool is_drawn = povray_run(&job, detail, sizeof detail) &&
-                    image_read(picture, (uint64_t)width * (uint64_t)height, image, &error) == IMAGE_OK;
+                    image_read(output, (uint64_t)width * (uint64_t)height, image, &error) == IMAGE_OK;
     if (is_drawn && image->width == width && image->height == height && image->channels == 3) {
         return true;
     }

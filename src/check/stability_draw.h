@@ -21,16 +21,21 @@ typedef struct Motion {
 
 static const Motion motion_none = {1.0, {0.0, 0.0, 0.0}, 1.0, RT_PRECISION_DOUBLE};
 
-// A scene's picture as width x height x 3 values. False when it cannot be read, or the reference path refuses it.
-bool motion_draw(const Options *options, const StudyScene *scene, const Motion *motion, int width, int height,
-                 float *values);
+// A picture of a scene that was put somewhere.
+typedef struct MotionPicture {
+    const Options *options;
+    const StudyScene *scene;
+    const Motion *motion;
+    int width, height;
+} MotionPicture;
+
+// Its width x height x 3 values. False when the scene cannot be read, or the reference path refuses it.
+bool motion_draw(const MotionPicture *picture, float *values);
 
 // The same as an image that is the caller's.
-bool motion_image(const Options *options, const StudyScene *scene, const Motion *motion, int width, int height,
-                  Image *image);
+bool motion_image(const MotionPicture *picture, Image *image);
 
 // POV-Ray's picture of the scene after the motion. `folder` is one for temporary files.
-bool motion_povray(const Options *options, const char *povray, const char *folder, const StudyScene *scene,
-                   const Motion *motion, int width, int height, Image *image);
+bool motion_povray(const MotionPicture *picture, const char *povray, const char *folder, Image *image);
 
 #endif

@@ -80,8 +80,8 @@ static bool compare(Stability *stability, const Options *options, const StudySce
     if (has_memory) {
         *row = (PictureRow){.scene = scene->name, .beside = beside};
         snprintf(row->what, sizeof row->what, "%s", what);
-        if (motion_draw(options, scene, one, WIDTH, HEIGHT, values) &&
-            motion_draw(options, scene, other, WIDTH, HEIGHT, values + VALUES)) {
+        if (motion_draw(&(MotionPicture){options, scene, one, WIDTH, HEIGHT}, values) &&
+            motion_draw(&(MotionPicture){options, scene, other, WIDTH, HEIGHT}, values + VALUES)) {
             picture_compare(row, values, values + VALUES);
         }
     }
@@ -145,10 +145,11 @@ static void show(Stability *stability, const Options *options, const StudyScene 
     for (int way = 0; way < SHOWN_POVRAY; way++) {
         Motion motion = motion_none;
         motion.precision = precisions[way];
-        row->has[way] = motion_image(options, scene, &motion, SHOWN_WIDTH, SHOWN_HEIGHT, &row->in[way]);
+        const MotionPicture picture = {options, scene, &motion, SHOWN_WIDTH, SHOWN_HEIGHT};
+        row->has[way] = motion_image(&picture, &row->in[way]);
     }
-    row->has[SHOWN_POVRAY] = povray && motion_povray(options, povray, folder, scene, &motion_none, SHOWN_WIDTH,
-                                                     SHOWN_HEIGHT, &row->in[SHOWN_POVRAY]);
+    const MotionPicture still = {options, scene, &motion_none, SHOWN_WIDTH, SHOWN_HEIGHT};
+    row->has[SHOWN_POVRAY] = povray && motion_povray(&still, povray, folder, &row->in[SHOWN_POVRAY]);
 }
 
 bool stability_pictures(Stability *stability, const Options *options, const char *povray, const char *folder)

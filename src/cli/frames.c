@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-double frames_clock_delta(const Frames *frames)
+// How much the clock continues from frame to frame; 0 where there is only one.
+static double frames_clock_delta(const Frames *frames)
 {
     int steps = frames->final - frames->initial;
     return steps != 0 ? (frames->clock_to - frames->clock_from) / steps : 0.0;

@@ -16,8 +16,6 @@ typedef struct Frames {
     double clock_from, clock_to;
 } Frames;
 
-// How much the clock continues from frame to frame; 0 where there is only one.
-double frames_clock_delta(const Frames *frames);
 double frames_clock(const Frames *frames, int frame);
 
 // The name of a frame's picture: its number, of as many digits as the last one has, before the ending. Standard output

@@ -44,7 +44,7 @@ const char *text_at(const char *text, Position position)
     return at;
 }
 
-Position text_position(const char *text, const char *at)
+static Position text_position(const char *text, const char *at)
 {
     Position position = {0, 0};
     const char *begin = text;

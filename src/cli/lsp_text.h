@@ -20,7 +20,6 @@ typedef struct Word {
 
 // The byte at a position; that of the end of a shorter line or text.
 const char *text_at(const char *text, Position position);
-Position text_position(const char *text, const char *at);
 // The byte of a line and column that count from 1, in characters.
 const char *text_of_column(const char *text, unsigned long long line, unsigned long long column);
 

@@ -13,7 +13,7 @@
 #include "cli/povray.h"
 #include "cli/share.h"
 
-void options_print_help(FILE *out)
+static void options_print_help(FILE *out)
 {
     fprintf(out, "Usage: rtlang [OPTION]... SCENE...\n"
                  "Reads each SCENE, traces it and writes a picture. SCENE - is standard input.\n\n");

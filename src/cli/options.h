@@ -109,6 +109,5 @@ OptionsResult options_parse(int argc, char **argv, Options *options);
 // The options alone, of which `argv` has nothing else: no scene is wanted.
 OptionsResult options_read(int argc, char **argv, Options *options);
 void options_fini(Options *options);
-void options_print_help(FILE *out);
 
 #endif

@@ -40,7 +40,8 @@ static double srgb_from_linear(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-double encode_transfer(const ImageEncoding *encoding, double linear)
+// The transfer function alone, for 0 <= linear <= 1.
+static double encode_transfer(const ImageEncoding *encoding, double linear)
 {
     if (encoding->already_encoded) {
         return linear;

@@ -34,9 +34,6 @@ void encoder_run(const Encoder *encoder, const float *values, size_t pixels, voi
 
 size_t encode_sample_bytes(ImageDepth depth);
 
-// The transfer function alone, for 0 <= linear <= 1.
-double encode_transfer(const ImageEncoding *encoding, double linear);
-
 // The integer code of a value of linear light at 8 or 16 bit. NaN counts as 0.
 unsigned encode_code(const ImageEncoding *encoding, float linear);
 

@@ -16,61 +16,58 @@ _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TIL
 
 // The rays of a view, ray by ray but for what they hit, and for the first surfaces that are plain.
 RT_ALWAYS_INLINE void trace_view(const Prepared *p, unsigned features, ShadePath path, const TileView *view,
-                                 const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
-                                 RenderScratch *scratch, RenderStatistics *statistics)
+                                 const KernelCall *call)
 {
-    SphereTile *tile = &scratch->tile.rays;
+    SphereTile *tile = &call->scratch->tile.rays;
     TileHits found;
-    geometry_closest_view(p->geometry, features, view, places->u, places->v, tile, &found);
-    wanted = tile_first(p, &found, streams, wanted, light, scratch, statistics);
-    for (; wanted; wanted &= wanted - 1) {
-        unsigned i = (unsigned)__builtin_ctzll(wanted);
+    geometry_closest_view(p->geometry, features, view, call->places->u, call->places->v, tile, &found);
+    for (uint64_t left = tile_first(p, &found, call); left; left &= left - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(left);
         SphereRay ray = sphere_tile_ray(tile, i);
         Hit hit = {found.t[i], found.shape[i], found.inside >> i & 1};
-        light[i] = shade_ray(p, features, path, (Ray){ray.origin, ray.direction}, &hit, streams ? &streams[i] : NULL,
-                             &scratch->rays, statistics);
+        SampleStream *stream = call->streams ? &call->streams[i] : NULL;
+        call->light[i] = shade_ray(p, features, path, (Ray){ray.origin, ray.direction}, &hit, stream,
+                                   &call->scratch->rays, call->statistics);
     }
 }
 
 // Rays of other cameras, each by itself.
-RT_ALWAYS_INLINE void trace_single(const Prepared *p, unsigned features, ShadePath path, const KernelPlaces *places,
-                                   SampleStream *streams, uint64_t wanted, Rgb *light, RenderScratch *scratch,
-                                   RenderStatistics *statistics)
+RT_ALWAYS_INLINE void trace_single(const Prepared *p, unsigned features, ShadePath path, const KernelCall *call)
 {
-    for (; wanted; wanted &= wanted - 1) {
-        int i = __builtin_ctzll(wanted);
+    for (uint64_t left = call->wanted; left; left &= left - 1) {
+        int i = __builtin_ctzll(left);
         Ray ray;
-        bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
-        light[i] = rgb_grey(0.0);
+        bool is_seen = camera_place_ray(&p->camera, call->places, i, &ray);
+        call->light[i] = rgb_grey(0.0);
         if (is_seen) {
-            SampleStream *stream = streams ? &streams[i] : NULL;
-            light[i] = shade_ray(p, features, path, ray, NULL, stream, &scratch->rays, statistics);
+            SampleStream *stream = call->streams ? &call->streams[i] : NULL;
+            call->light[i] = shade_ray(p, features, path, ray, NULL, stream, &call->scratch->rays, call->statistics);
         }
     }
 }
 
-RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePath path, const KernelPlaces *places,
-                                   SampleStream *streams, uint64_t wanted, Rgb *light, RenderScratch *scratch,
-                                   RenderStatistics *statistics)
+RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePath path, const KernelCall *asked)
 {
     const PreparedCamera *camera = &p->camera;
     TileView view = {camera->location, camera->direction, camera->right, camera->up};
-    RenderStatistics counted = *statistics;
-    counted.camera_rays += (uint64_t)__builtin_popcountll(wanted);
-    bool is_view = camera->type == CAMERA_PERSPECTIVE && !places->lens;
+    RenderStatistics counted = *asked->statistics;
+    KernelCall call = *asked;
+    call.statistics = &counted;
+    counted.camera_rays += (uint64_t)__builtin_popcountll(call.wanted);
+    bool is_view = camera->type == CAMERA_PERSPECTIVE && !call.places->lens;
     if (shade_tile_may(p, features)) {
         TileShading shading; // not cleared as a whole
-        shading.scratch = &scratch->tile;
-        shading.streams = streams;
-        shading.light = light;
+        shading.scratch = &call.scratch->tile;
+        shading.streams = call.streams;
+        shading.light = call.light;
         shading.statistics = &counted;
-        shade_tile(p, features, is_view ? &view : NULL, places, wanted, &shading);
+        shade_tile(p, features, is_view ? &view : NULL, call.places, call.wanted, &shading);
     } else if (is_view) {
-        trace_view(p, features, path, &view, places, streams, wanted, light, scratch, &counted);
+        trace_view(p, features, path, &view, &call);
     } else {
-        trace_single(p, features, path, places, streams, wanted, light, scratch, &counted);
+        trace_single(p, features, path, &call);
     }
-    *statistics = counted;
+    *asked->statistics = counted;
 }
 
 // What a kernel may contain. Measured by instructions, only opaque against clear matters among the kernels of tiles (times
@@ -88,11 +85,9 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
     {                                                                                                                  \
         return shade_stack(p, (unsigned)(geometry) | (unsigned)(shading), stack, stream, statistics);                  \
     }                                                                                                                  \
-    static void trace_##name(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,    \
-                             Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)                         \
+    static void trace_##name(const Prepared *p, const KernelCall *call)                                                \
     {                                                                                                                  \
-        trace_places(p, (unsigned)(geometry) | (unsigned)(shading), path_##name, places, streams, wanted, light,       \
-                     scratch, statistics);                                                                             \
+        trace_places(p, (unsigned)(geometry) | (unsigned)(shading), path_##name, call);                                \
     }
 #define LIST_KERNEL(name, text, geometry, shading) {text, (unsigned)(geometry) | (unsigned)(shading), trace_##name},
 

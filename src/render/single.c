@@ -32,7 +32,8 @@ static void trace_block(const Single *single, Tile block, RenderScratch *scratch
     double clear[KERNEL_RAYS];
     places.lens = NULL;
     uint64_t wanted = block_places(film, block, 0.0, &places);
-    alpha_trace(single->prepared, &places, NULL, wanted, light, clear, scratch, counted);
+    const KernelCall call = {&places, wanted, NULL, light, scratch, counted};
+    alpha_trace(single->prepared, &call, clear);
     int columns = block.right - block.left;
     for (int y = block.top; y < block.bottom; y++) {
         int first = (y - block.top) * KERNEL_ROW;

@@ -75,29 +75,29 @@ static uint64_t find_clear(LightTile *tile, const Rgb through[TILE_RAYS])
 }
 
 // Returns the rays that are left after all.
-static uint64_t shade_surfaces(const Prepared *p, const TileHits *hits, SampleStream *streams, uint64_t plain,
-                               Rgb *light, TileScratch *scratch, RenderStatistics *statistics)
+static uint64_t shade_surfaces(const Prepared *p, const TileHits *hits, uint64_t plain, const KernelCall *call)
 {
+    TileScratch *scratch = &call->scratch->tile;
     MaterialIndex material[TILE_RAYS];
     Rgb through[TILE_RAYS];
     LightTile *tile = &scratch->tile;
     geometry_tile_surfaces(p->geometry, FEATURES, &scratch->rays, hits, plain, &tile->surfaces, material);
     shade_tile_begin(p, LAYER_FEATURES, tile, material, through);
     uint64_t left = find_clear(tile, through);
-    shade_tile_lights(p, FEATURES, scratch, streams, statistics);
+    shade_tile_lights(p, FEATURES, scratch, call->streams, call->statistics);
     for (int i = 0; i < tile->surfaces.count; i++) {
         unsigned ray = tile->surfaces.ray[i];
         Rgb own = rgb(tile->light[0][i], tile->light[1][i], tile->light[2][i]);
-        light[ray] = through_fog(p, &scratch->rays, ray, hits->t[ray] * p->textures.scale, own);
+        call->light[ray] = through_fog(p, &scratch->rays, ray, hits->t[ray] * p->textures.scale, own);
     }
     return left;
 }
 
-uint64_t tile_first(const Prepared *p, const TileHits *hits, SampleStream *streams, uint64_t wanted, Rgb *light,
-                    RenderScratch *scratch, RenderStatistics *statistics)
+uint64_t tile_first(const Prepared *p, const TileHits *hits, const KernelCall *call)
 {
-    TileScratch *tile = &scratch->tile;
-    tile->media = &scratch->rays.media;
+    uint64_t wanted = call->wanted;
+    TileScratch *tile = &call->scratch->tile;
+    tile->media = &call->scratch->rays.media;
     tile->before = prepared_start(p, p->camera.location, tile->media);
     if (p->is_by_rays || tile->media->nodes[tile->before].is_in_solid) {
         return wanted;
@@ -105,9 +105,9 @@ uint64_t tile_first(const Prepared *p, const TileHits *hits, SampleStream *strea
     for (uint64_t missed = wanted & ~hits->met; missed; missed &= missed - 1) {
         unsigned i = (unsigned)__builtin_ctzll(missed);
         Rgb own = sky_light(p, sphere_tile_ray(&tile->rays, i).direction);
-        light[i] = through_fog(p, &tile->rays, i, (double)INFINITY, own);
+        call->light[i] = through_fog(p, &tile->rays, i, (double)INFINITY, own);
     }
     uint64_t plain = find_plain(p, hits, wanted & hits->met);
-    uint64_t left = plain ? shade_surfaces(p, hits, streams, plain, light, tile, statistics) : 0;
+    uint64_t left = plain ? shade_surfaces(p, hits, plain, call) : 0;
     return (wanted & hits->met & ~plain) | left;
 }

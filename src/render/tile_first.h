@@ -8,10 +8,9 @@
 #include "render/records/prepared.h"
 #include "render/sample/scratch.h"
 
-// The light of those of `wanted` that meet nothing, or one opaque layer without bumps that mirrors nothing, whatever
-// else the scene holds: bit for bit that of shade_ray. `scratch->tile.rays` are the rays that have met `hits`. Returns
+// The light of those wanted that meet nothing, or one opaque layer without bumps that mirrors nothing, whatever
+// else the scene holds: bit for bit that of shade_ray. The scratch's tile.rays are the rays that have met `hits`. Returns
 // the rays that are left.
-uint64_t tile_first(const Prepared *p, const TileHits *hits, SampleStream *streams, uint64_t wanted, Rgb *light,
-                    RenderScratch *scratch, RenderStatistics *statistics);
+uint64_t tile_first(const Prepared *p, const TileHits *hits, const KernelCall *call);
 
 #endif

@@ -18,8 +18,8 @@ const Texture *dump_fields_of(const Scene *scene, MaterialIndex material)
     return texture && texture_is_of_fields(texture) ? texture : NULL;
 }
 
-// Textures stand in the order of their components, so that each is the next of the list.
-void dump_blob(const Scene *scene, const Primitive *primitive, const Texture *texture, TextBuffer *out)
+// All of a blob but its head; `texture` is NULL or that of its components.
+static void dump_blob(const Scene *scene, const Primitive *primitive, const Texture *texture, TextBuffer *out)
 {
     Blob blob = blob_of(primitive->list.items);
     uint32_t entry = texture ? texture->entries : RECORD_NONE;

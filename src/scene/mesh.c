@@ -63,44 +63,6 @@ void mesh_measure(Mesh *mesh)
     }
 }
 
-static bool are_finite(const float (*vectors)[3], uint32_t count)
-{
-    float nothing = 0.0F; // as long as all is finite
-    for (uint32_t i = 0; i < count; i++) {
-        nothing += vectors[i][0] * 0.0F + vectors[i][1] * 0.0F + vectors[i][2] * 0.0F;
-    }
-    return nothing == 0.0F;
-}
-
-static bool uvs_are_finite(const Mesh *mesh)
-{
-    float nothing = 0.0F;
-    for (uint32_t i = 0; i < mesh->uv_count; i++) {
-        nothing += mesh->uvs[i][0] * 0.0F + mesh->uvs[i][1] * 0.0F;
-    }
-    return nothing == 0.0F;
-}
-
-static bool are_within(const uint32_t index[3], uint32_t count)
-{
-    return index[0] < count && index[1] < count && index[2] < count;
-}
-
-bool mesh_is_valid(const Mesh *mesh)
-{
-    bool is_valid = mesh->face_count > 0 && mesh->face_count <= MESH_FACES_MOST &&
-                    vec3_is_finite(mesh->inside_vector) &&
-                    are_finite((const float(*)[3])mesh->vertices, mesh->vertex_count) &&
-                    are_finite((const float(*)[3])mesh->normals, mesh->normal_count) && uvs_are_finite(mesh);
-    for (uint32_t face = 0; is_valid && face < mesh->face_count; face++) {
-        is_valid = are_within(mesh->faces[face], mesh->vertex_count) &&
-                   (!mesh_face_is_smooth(mesh, face) || are_within(mesh->face_normals[face], mesh->normal_count)) &&
-                   (!mesh->uvs || are_within(mesh->face_uvs[face], mesh->uv_count)) &&
-                   (!mesh->face_textures || mesh->face_textures[face] <= mesh->texture_count);
-    }
-    return is_valid;
-}
-
 bool mesh_holds(const Mesh *mesh, Vec3 point)
 {
     if (mesh->field) {

@@ -56,9 +56,6 @@ size_t mesh_bytes(const Mesh *mesh);
 // Sets `low` and `high`. The indices are valid, and there is a face.
 void mesh_measure(Mesh *mesh);
 
-// Whether all indices are within their lists and all numbers finite.
-bool mesh_is_valid(const Mesh *mesh);
-
 // Whether a point of its space is inside: it asks all faces.
 bool mesh_holds(const Mesh *mesh, Vec3 point);
 

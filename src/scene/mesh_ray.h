@@ -71,15 +71,16 @@ RT_ALWAYS_INLINE void mesh_shear(const MeshRay *ray, const float v[3], double p[
 
 // Weights and t of edge functions that have one sign. What is on the edge only has weights of 0: then the first
 // corner's.
-static inline void mesh_point_set(const MeshRay *ray, const double a[3], const double b[3], const double c[3], double u,
-                                  double v, double w, MeshPoint *point)
+static inline void mesh_point_set(const MeshRay *ray, const double corners[3][3], const double edges[3],
+                                  MeshPoint *point)
 {
-    double sum = u + v + w;
+    const double *a = corners[0], *b = corners[1], *c = corners[2];
+    double sum = edges[0] + edges[1] + edges[2];
     double low = fmin(a[2], fmin(b[2], c[2])), high = fmax(a[2], fmax(b[2], c[2]));
     bool is_nothing = !(fabs(sum) > 0.0);
-    point->weights[0] = is_nothing ? 1.0 : u / sum;
-    point->weights[1] = is_nothing ? 0.0 : v / sum;
-    point->weights[2] = is_nothing ? 0.0 : w / sum;
+    point->weights[0] = is_nothing ? 1.0 : edges[0] / sum;
+    point->weights[1] = is_nothing ? 0.0 : edges[1] / sum;
+    point->weights[2] = is_nothing ? 0.0 : edges[2] / sum;
     double z = point->weights[0] * a[2] + point->weights[1] * b[2] + point->weights[2] * c[2];
     point->t = fmax(low, fmin(z, high)) * ray->inverse;
 }
@@ -87,16 +88,16 @@ static inline void mesh_point_set(const MeshRay *ray, const double a[3], const d
 // Where the line crosses a face.
 RT_ALWAYS_INLINE bool mesh_ray_crosses(const MeshRay *ray, const Mesh *mesh, uint32_t face, MeshPoint *point)
 {
-    double a[3], b[3], c[3], u, v, w;
+    double p[3][3], edges[3];
     const uint32_t *corners = mesh->faces[face];
-    mesh_shear(ray, mesh->vertices[corners[0]], a);
-    mesh_shear(ray, mesh->vertices[corners[1]], b);
-    mesh_shear(ray, mesh->vertices[corners[2]], c);
-    int side = mesh_edge_sign(c, b, &u);
-    if (side == 0 || mesh_edge_sign(a, c, &v) != side || mesh_edge_sign(b, a, &w) != side) {
+    mesh_shear(ray, mesh->vertices[corners[0]], p[0]);
+    mesh_shear(ray, mesh->vertices[corners[1]], p[1]);
+    mesh_shear(ray, mesh->vertices[corners[2]], p[2]);
+    int side = mesh_edge_sign(p[2], p[1], &edges[0]);
+    if (side == 0 || mesh_edge_sign(p[0], p[2], &edges[1]) != side || mesh_edge_sign(p[1], p[0], &edges[2]) != side) {
         return false;
     }
-    mesh_point_set(ray, a, b, c, u, v, w, point);
+    mesh_point_set(ray, p, edges, point);
     return true;
 }
 

@@ -1,4 +1,4 @@
-// The table of kinds of primitives: all that is said of a kind but how rays meet it (trace/solid.c).
+// The table of kinds of primitives: all that is said of a kind but how rays meet it (trace/prepared_primitive.c).
 //
 // A row is what makes a kind one; whoever asks about a primitive asks its row. Constant data, shared by all threads.
 //

@@ -287,24 +287,10 @@ static void line_polynomial(const Line *line, Polynomial *p)
 
 // What has been found so far.
 typedef struct Found {
-    RayInterval *intervals, open;
-    unsigned count, most;
-    bool is_inside;
+    IntervalWalk walk;
+    unsigned most;
     bool is_first, is_over; // the first crossing is enough where doubles find it; it is there
 } Found;
-
-static void cross(Found *found, double t)
-{
-    if (found->is_inside) {
-        found->open.leave = t;
-        found->open.leave_side = 0;
-        found->intervals[found->count++] = found->open;
-    } else {
-        found->open.enter = t;
-        found->open.enter_side = 0;
-    }
-    found->is_inside = !found->is_inside;
-}
 
 static bool root_is_good(const Line *line, const Polynomial *p, double s)
 {
@@ -357,8 +343,8 @@ static void take_piece(Line *line, double low, double high, bool inward, Found *
 {
     bool begins = line->is_start && low == 0.0;
     if (!begins && is_below(line, low, high)) {
-        if (found->is_inside) {
-            cross(found, low);
+        if (found->walk.is_inside) {
+            interval_walk_cross(&found->walk, low, 0);
         }
         return;
     }
@@ -372,14 +358,14 @@ static void take_piece(Line *line, double low, double high, bool inward, Found *
     unsigned passed = 0;
     unsigned count = piece_roots(line, &p, begins ? low : -half, begins ? high : half, roots, &sign);
     if (begins) {
-        found->is_inside = starts_inside(&p, inward);
-        passed = count > 0 && found->is_inside != (sign > 0) ? 1 : 0;
-    } else if (sign != 0 && (sign > 0) != found->is_inside) {
-        cross(found, low);
+        found->walk.is_inside = starts_inside(&p, inward);
+        passed = count > 0 && found->walk.is_inside != (sign > 0) ? 1 : 0;
+    } else if (sign != 0 && (sign > 0) != found->walk.is_inside) {
+        interval_walk_cross(&found->walk, low, 0);
     }
-    for (unsigned i = passed; i < count && found->count < found->most; i++) {
+    for (unsigned i = passed; i < count && found->walk.count < found->most; i++) {
         double t = line->base + roots[i];
-        cross(found, t);
+        interval_walk_cross(&found->walk, t, 0);
         found->is_over = found->is_first && !p.is_exact && t > 0.0;
         if (found->is_over) {
             return;
@@ -421,7 +407,7 @@ static void set_start(Line *line, Found *found)
         line->threshold_error = p.errors[0];
         line->threshold += p.terms[0];
     } else {
-        found->is_inside = line->active_count > 0 && roots_sign(&p, 0.0) > 0;
+        found->walk.is_inside = line->active_count > 0 && roots_sign(&p, 0.0) > 0;
     }
 }
 
@@ -433,21 +419,19 @@ static void walk(Line *line, SideLeft left, Found *found)
     if (line->is_start && line->active_count == 0) {
         return;
     }
-    while ((line->active_count > 0 || next < line->count) && found->count < found->most && !found->is_over) {
+    while ((line->active_count > 0 || next < line->count) && found->walk.count < found->most && !found->is_over) {
         if (line->active_count > 0) {
             take_piece(line, at, to, left.inward, found);
-        } else if (found->is_inside) {
-            cross(found, at);
+        } else if (found->walk.is_inside) {
+            interval_walk_cross(&found->walk, at, 0);
         }
         at = to;
         to = set_active(line, at, &next);
     }
-    if (found->is_over && found->is_inside) {
-        found->open.leave = (double)INFINITY; // somewhere behind
-        found->open.leave_side = SIDE_NONE;
-        found->intervals[found->count++] = found->open;
-    } else if (found->is_inside && found->count < found->most) {
-        cross(found, at);
+    if (found->is_over && found->walk.is_inside) {
+        interval_walk_stay(&found->walk); // it ends somewhere behind
+    } else if (found->walk.is_inside && found->walk.count < found->most) {
+        interval_walk_cross(&found->walk, at, 0);
     }
 }
 
@@ -465,10 +449,11 @@ unsigned blob_intervals(const double *list, bool is_first, const Ray *ray, SideL
     line.active = active;
     line.order = order;
     sort_stretches(&line);
-    Found found = {
-        .intervals = intervals, .open = INTERVAL_ALL, .most = is_first ? FIRST_FEW : most, .is_first = is_first};
+    Found found = {.walk = {.intervals = intervals, .open = INTERVAL_ALL},
+                   .most = is_first ? FIRST_FEW : most,
+                   .is_first = is_first};
     walk(&line, left, &found);
-    return found.count;
+    return found.walk.count;
 }
 
 // ---- surfaces

@@ -187,14 +187,14 @@ RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin,
 }
 
 // The same for all rays from one origin whose directions have components between `least` and `greatest`, least and
-// greatest by size and of the same signs (zeros have one), and for all that is no farther than `aside` from one of them.
+// greatest by size and of the same signs (zeros have one), and for all that is no farther than `end_radius` from one of them.
 // False when there are no such leaves, or when the origin is too far away for boxes in float (then ask ray by ray).
-RT_ALWAYS_INLINE bool bvh_walk_start_beam(BvhWalk *walk, const Bvh *bvh, Vec3 origin, double aside, Vec3 least,
+RT_ALWAYS_INLINE bool bvh_walk_start_beam(BvhWalk *walk, const Bvh *bvh, Vec3 origin, double end_radius, Vec3 least,
                                           Vec3 greatest, bool *is_too_far)
 {
     Axes o;
     bvh_walk_point(bvh, origin, &o);
-    double outset = aside * bvh->scale;
+    double outset = end_radius * bvh->scale;
     double reach = axes_sum_abs(&o) + bvh->half.x + bvh->half.y + bvh->half.z + outset;
     *is_too_far = !(reach < 4096.0);
     if (*is_too_far || !bvh->nodes) {

@@ -1,7 +1,7 @@
 // Which spheres of a block a bundle of rays from one point may meet: part of spheres_kernel.c.
 //
 // The rays lie in a cone. A sphere that one of them meets is no farther from the cone's axis than |centre - origin|
-// spread + radius, and one that is met aside of them farther by that. Spreads carry a margin far above what rounding does, so that no sphere is lost.
+// spread + radius, and one that is met end_radius of them farther by that. Spreads carry a margin far above what rounding does, so that no sphere is lost.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_CONE_TEST_H
@@ -10,10 +10,10 @@
 #include "trace/simd.h"
 #include "trace/spheres.h"
 
-// Rays from `origin` whose directions, of unit length, are within `spread` of the axis, and what is `aside` of them.
+// Rays from `origin` whose directions, of unit length, are within `spread` of the axis, and what is `end_radius` of them.
 typedef struct RayCone {
     Vec3 origin, axis;
-    double spread, aside;
+    double spread, end_radius;
 } RayCone;
 
 // For the rounding of distances from an axis, which are differences of squares: their error is about 2^-25 |f|.
@@ -43,7 +43,7 @@ RT_ALWAYS_INLINE unsigned cone_spheres(const RayCone *cone, const SphereBlock *b
         Doubles along = fx * cone->axis.x + fy * cone->axis.y + fz * cone->axis.z;
         Doubles f_squared = fx * fx + fy * fy + fz * fz;
         Doubles radius_squared = doubles_load(&block->radius_squared[i]);
-        Doubles reach = doubles_sqrt(f_squared) * cone->spread + (doubles_sqrt(radius_squared) + cone->aside);
+        Doubles reach = doubles_sqrt(f_squared) * cone->spread + (doubles_sqrt(radius_squared) + cone->end_radius);
         unsigned apart = doubles_ge(f_squared - along * along, reach * reach); // never where squares overflow
         touched |= (doubles_ge(radius_squared, doubles_splat(0.0)) & ~apart) << i;
     }

@@ -64,21 +64,13 @@ static inline uint32_t crossings_first_behind(const Crossing *crossings, uint32_
 // Puts them in order; count / 2 + 1 intervals at most. Returns how many.
 static inline unsigned crossings_intervals(Crossing *crossings, uint32_t count, SideLeft left, RayInterval *intervals)
 {
-    RayInterval own = INTERVAL_ALL;
-    unsigned made = 0;
-    bool is_start = left.side != SIDE_NONE, is_inside = is_start && left.inward;
+    bool is_start = left.side != SIDE_NONE;
+    IntervalWalk walk = {.intervals = intervals, .open = INTERVAL_ALL, .is_inside = is_start && left.inward};
     crossings_sort(crossings, count);
-    for (uint32_t i = is_start ? crossings_first_behind(crossings, count, false, &is_inside) : 0; i < count; i++) {
-        if (is_inside) {
-            own.leave = crossings[i].t;
-            own.leave_side = crossings[i].side;
-            intervals[made++] = own;
-        }
-        own.enter = crossings[i].t;
-        own.enter_side = crossings[i].side;
-        is_inside = !is_inside;
+    for (uint32_t i = is_start ? crossings_first_behind(crossings, count, false, &walk.is_inside) : 0; i < count; i++) {
+        interval_walk_cross(&walk, crossings[i].t, crossings[i].side);
     }
-    return made;
+    return walk.count;
 }
 
 #endif

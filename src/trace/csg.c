@@ -66,8 +66,7 @@ RT_ALWAYS_INLINE bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t 
         face_offer(p->table, shape_id(SHAPE_FACE, face), p->ray, seen->t,
                    crossing_span(seen->t, crossing_error(p, seen), p->enter), first);
     } else if (seen) {
-        primitive_offer(p->table, p->csg->first_primitive + seen->solid, p->ray, seen->t,
-                        crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
+        crossing_offer(p, seen, first);
     }
     return seen;
 }
@@ -381,9 +380,10 @@ RT_ALWAYS_INLINE void traversal_follow(CsgTraversal *p, RayStart start, bool ask
 }
 
 // Written once, for composites with meshes and for others.
-RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start,
-                              double start_error, double enter, bool has_meshes, Foremost *first)
+RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const CsgRay *asked, bool has_meshes,
+                              Foremost *first)
 {
+    const RayStart start = asked->start;
     uint32_t inside[csg->node_count];
     bool is_inside[csg->primitive_count];
     Crossing crossings[csg->crossing_count];
@@ -392,12 +392,12 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
     MeshCursor cursors[has_meshes ? csg->mesh_count : 1];
     CsgTraversal p = {.table = table,
                       .csg = csg,
-                      .ray = ray,
+                      .ray = asked->ray,
                       .start = start,
-                      .start_error = start_error,
-                      .enter = enter,
-                      .origin_size = vec3_sum_abs(ray->origin),
-                      .direction_size = vec3_sum_abs(ray->direction),
+                      .start_error = asked->start_error,
+                      .enter = asked->enter,
+                      .origin_size = vec3_sum_abs(asked->ray->origin),
+                      .direction_size = vec3_sum_abs(asked->ray->direction),
                       .first_surface = (double)INFINITY,
                       .greatest_bound = -1.0,
                       .inside = inside,
@@ -432,22 +432,20 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
     traversal_follow(&p, start, asks_joined, has_meshes, first);
 }
 
-static __attribute__((noinline)) void closest_of_meshes(const ShapeTable *table, const CsgTree *csg, const Ray *ray,
-                                                        RayStart start, double start_error, double enter,
-                                                        Foremost *first)
+static __attribute__((noinline)) void closest_of_meshes(const ShapeTable *table, const CsgTree *csg,
+                                                        const CsgRay *asked, Foremost *first)
 {
-    closest(table, csg, ray, start, start_error, enter, true, first);
+    closest(table, csg, asked, true, first);
 }
 
-void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
-                 double enter, Foremost *first)
+void csg_closest(const ShapeTable *table, const CsgTree *csg, const CsgRay *asked, Foremost *first)
 {
-    if (csg->hidden & start.use) {
+    if (csg->hidden & asked->start.use) {
         return;
     }
     if (RT_UNLIKELY(csg->mesh_count > 0)) {
-        closest_of_meshes(table, csg, ray, start, start_error, enter, first);
+        closest_of_meshes(table, csg, asked, first);
     } else {
-        closest(table, csg, ray, start, start_error, enter, false, first);
+        closest(table, csg, asked, false, first);
     }
 }

@@ -90,8 +90,7 @@ static bool plain_closest(CsgTraversal *p, Foremost *first)
         return false;
     }
     if (is_seen) {
-        primitive_offer(p->table, p->csg->first_primitive + seen->solid, p->ray, seen->t,
-                        crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
+        crossing_offer(p, seen, first);
     }
     return true;
 }
@@ -124,8 +123,7 @@ static bool meet_closest(CsgTraversal *p, Foremost *first)
             return false;
         }
     }
-    primitive_offer(p->table, p->csg->first_primitive + seen->solid, p->ray, seen->t,
-                    crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
+    crossing_offer(p, seen, first);
     return true;
 }
 

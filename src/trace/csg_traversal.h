@@ -144,6 +144,12 @@ static double crossing_error(const CsgTraversal *p, Crossing *c)
     return c->error;
 }
 
+static void crossing_offer(const CsgTraversal *p, Crossing *c, Foremost *first)
+{
+    const PrimitiveRoot root = {p->csg->first_primitive + c->solid, c->side, c->leaves, c->t};
+    primitive_offer(p->table, p->ray, &root, crossing_span(c->t, crossing_error(p, c), p->enter), first);
+}
+
 static double end_bound(const CsgTraversal *p, uint32_t index, double t, uint8_t side)
 {
     double span = p->origin_size + fabs(t) * p->direction_size;

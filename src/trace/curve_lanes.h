@@ -4,7 +4,7 @@
 // From outside Newton's steps come to the first root of a convex piece without passing it, or to where the function
 // rises. In the concave piece there is a root if the function is below 0 at its end, and the steps begin there. A sign
 // counts only if it is certain whatever rounding has done to the line; a root only if the last steps show that it is
-// one by itself. All other rays (grazing ones, from within) are not told: they are asked one by one, by the solid's
+// one by itself. All other rays (grazing ones, from within) are not certain: they are asked one by one, by the solid's
 // class.
 //
 // SPDX-License-Identifier: MIT
@@ -33,7 +33,7 @@ RT_ALWAYS_INLINE LinePlace curve_lanes_at(const CurveLanes *curve, Doubles s)
 // one, or to where nothing is certain.
 typedef struct CurveSteps {
     Doubles s;
-    DoublesMask open, found, passed, doubtful;
+    DoublesMask open, found, passed, uncertain;
 } CurveSteps;
 
 // `forward`: from the outside of a convex piece, which ends at `end`; the others in the concave one, from its end.
@@ -45,14 +45,14 @@ RT_ALWAYS_INLINE void curve_lanes_step(const CurveLanes *curve, Doubles end, Dou
         DoublesMask falls = place.slope<-place.slope_room, rises = place.slope> place.slope_room;
         DoublesMask is_done = falls & (change < 0x1p-21 * curve->line.size);
         DoublesMask is_past = forward & ~is_done & (rises | (falls & (next > end)));
-        DoublesMask is_bad = ~place.is_told | (~falls & ~is_past) | (is_past & ~(place.value > place.room));
-        steps->doubtful |= steps->open & is_bad;
+        DoublesMask is_bad = ~place.is_certain | (~falls & ~is_past) | (is_past & ~(place.value > place.room));
+        steps->uncertain |= steps->open & is_bad;
         steps->found |= steps->open & is_done & ~is_bad;
         steps->passed |= steps->open & is_past & ~is_bad;
         steps->s = doubles_choose(steps->open & falls, next, steps->s);
         steps->open &= ~(is_bad | is_done | is_past);
     }
-    steps->doubtful |= steps->open;
+    steps->uncertain |= steps->open;
     steps->open = (DoublesMask){0};
 }
 
@@ -65,7 +65,7 @@ RT_ALWAYS_INLINE void curve_lanes_turn(const CurveLanes *curve, DoublesMask aske
     DoublesMask is_beyond = line->second > line->high; // and outside there
     steps->s = doubles_choose(asked, line->second, steps->s);
     steps->passed |= asked & is_beyond;
-    steps->doubtful |= asked & ~is_beyond & ~is_out & ~is_in;
+    steps->uncertain |= asked & ~is_beyond & ~is_out & ~is_in;
     steps->open = asked & ~is_beyond & (is_out | is_in);
     curve_lanes_step(curve, line->high, is_out, steps);
 }
@@ -87,25 +87,25 @@ RT_ALWAYS_INLINE bool curve_lanes_first(const PreparedPrimitive *primitive, Prim
     } else {
         quartic_lanes_set(primitive, starts, f, d, &curve.quartic, line);
     }
-    DoublesMask is_near = (line->is_near & ~(line->high < line->start - line->unit)) | ~line->is_told;
+    DoublesMask is_near = (line->is_near & ~(line->high < line->start - line->unit)) | ~line->is_certain;
     if (!(asked & doubles_mask_bits(is_near))) {
         return false;
     }
     Doubles low = starts ? line->start : line->low;
     LinePlace place = curve_lanes_at(&curve, low);
     DoublesMask is_concave = line->bends & (low > line->first) & (low < line->second);
-    DoublesMask turns = line->bends & (low <= line->first), doubtful = ~line->is_told | ~place.is_told;
+    DoublesMask turns = line->bends & (low <= line->first), uncertain = ~line->is_certain | ~place.is_certain;
     CurveSteps steps = {low, none, none, none, none};
     if (starts) { // the function is 0; the slope says which way it goes
-        doubtful |= ~(place.slope > place.slope_room);
-        steps.passed = is_near & ~doubtful & ~is_concave;
+        uncertain |= ~(place.slope > place.slope_room);
+        steps.passed = is_near & ~uncertain & ~is_concave;
     } else {
-        doubtful |= ~((place.value > place.room) & (low > line->start + line->unit));
-        steps.open = is_near & ~doubtful & ~is_concave;
+        uncertain |= ~((place.value > place.room) & (low > line->start + line->unit));
+        steps.open = is_near & ~uncertain & ~is_concave;
         curve_lanes_step(&curve, doubles_choose(turns, doubles_min(line->first, line->high), line->high), ~none,
                          &steps);
     }
-    DoublesMask to_turn = is_near & ~doubtful & ((steps.passed & turns) | is_concave);
+    DoublesMask to_turn = is_near & ~uncertain & ((steps.passed & turns) | is_concave);
     DoublesMask missed = ~is_near | (steps.passed & ~turns);
     if (doubles_mask_bits(to_turn)) {
         steps.passed = none;

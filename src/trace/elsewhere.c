@@ -259,7 +259,7 @@ static void ask_closest(const SphereTable *table, const SphereRay *ray, uint32_t
 {
     Geometry *g = geometry_of(table);
     Asker *asker = asker_get(g->elsewhere);
-    nearest_settle(table, ray, nearest);
+    nearest_refine(table, ray, nearest);
     double limit = nearest->hit.shape == SHAPE_NONE ? nearest->hit.t : nearest->hit.t + LIMIT_SLACK * nearest->hit.t;
     SphereQuestion question = question_make(table, ray, start, limit);
     Asked *asked = asker ? ask(g->elsewhere, asker, &question) : NULL;
@@ -270,7 +270,8 @@ static void ask_closest(const SphereTable *table, const SphereRay *ray, uint32_t
     }
     if (is_met) {
         const SphereAnswer *answer = &asked->answer;
-        nearest_offer_tie(table, ray, asked->slot, &answer->ball, answer->t, answer->inside, false, nearest);
+        const SphereRoot root = {asked->slot, answer->ball, answer->t, answer->inside, false};
+        nearest_offer_tie(table, ray, &root, nearest);
     }
 }
 

@@ -17,9 +17,10 @@ static const double past_root = 5.0, near_start = 4.0;
 typedef struct Walk {
     IsosurfaceLine line;
     const Isosurface *surface;
-    RayInterval container, open, *intervals;
-    unsigned count, seen;
-    bool is_inside, is_alone, is_over;
+    RayInterval container;
+    IntervalWalk found;
+    unsigned seen;
+    bool is_alone, is_over;
     bool is_within; // the ray starts in the container
 } Walk;
 
@@ -29,13 +30,11 @@ static bool ball_interval(const Isosurface *surface, const Ray *ray, uint8_t lef
 {
     double inverse = 1.0 / surface->high[0];
     Vec3 middle = {surface->low[0], surface->low[1], surface->low[2]};
-    Vec3 o = vec3_scale(inverse, vec3_sub(ray->origin, middle)), d = vec3_scale(inverse, ray->direction);
-    double square = vec3_length_squared(d), at = -vec3_dot(o, d) / square;
-    double depth = 1.0 - vec3_length_squared(vec3_add_scaled(o, at, d));
-    if (!(depth >= 0.0) || !(square > 0.0)) {
+    Ray own = {vec3_scale(inverse, vec3_sub(ray->origin, middle)), vec3_scale(inverse, ray->direction)};
+    double at, half;
+    if (!ball_line(&own, 1.0, &at, &half)) {
         return false;
     }
-    double half = sqrt(depth / square);
     *interval = (RayInterval){at - half, at + half, ISOSURFACE_BALL, ISOSURFACE_BALL};
     if (left == ISOSURFACE_BALL) {
         *interval = (RayInterval){-(double)INFINITY, 2.0 * at, SIDE_NONE, ISOSURFACE_BALL};
@@ -68,15 +67,7 @@ static bool container_interval(const PreparedPrimitive *primitive, const Ray *ra
 
 static void cross(Walk *walk, double t, uint8_t side)
 {
-    if (walk->is_inside) {
-        walk->open.leave = t;
-        walk->open.leave_side = side;
-        walk->intervals[walk->count++] = walk->open;
-    } else {
-        walk->open.enter = t;
-        walk->open.enter_side = side;
-    }
-    walk->is_inside = !walk->is_inside;
+    interval_walk_cross(&walk->found, t, side);
     walk->seen += side != ISOSURFACE_UNSEEN;
     walk->is_over = walk->is_alone && side != ISOSURFACE_UNSEEN;
 }
@@ -98,7 +89,7 @@ static double start(Walk *walk)
     }
     if (f < near_start * walk->surface->accuracy * walk->surface->max_gradient) {
         at += past_root * walk->line.step;
-        walk->is_inside = isosurface_along(&walk->line, at) < 0.0;
+        walk->found.is_inside = isosurface_along(&walk->line, at) < 0.0;
     }
     return at;
 }
@@ -108,17 +99,15 @@ static void walk_roots(Walk *walk)
     double at = start(walk), to = walk->container.leave, t;
     bool is_long = to - at >= walk->line.step, has_end = is_long && walk->is_within; // whether its end is seen
     for (unsigned i = 0; i < 2 * ISOSURFACE_ROOTS_MOST && is_long && at < to && !walk->is_over; i++) {
-        if (!isosurface_find(&walk->line, at, to, walk->is_inside, &t)) {
+        if (!isosurface_find(&walk->line, at, to, walk->found.is_inside, &t)) {
             break;
         }
         cross(walk, t, walk->seen < walk->surface->roots_most ? ISOSURFACE_SIDE : ISOSURFACE_UNSEEN);
         at = t + past_root * walk->line.step;
     }
-    if (walk->is_over && walk->is_inside) { // it ends somewhere behind
-        walk->open.leave = (double)INFINITY;
-        walk->open.leave_side = SIDE_NONE;
-        walk->intervals[walk->count++] = walk->open;
-    } else if (walk->is_inside) {
+    if (walk->is_over && walk->found.is_inside) { // it ends somewhere behind
+        interval_walk_stay(&walk->found);
+    } else if (walk->found.is_inside) {
         cross(walk, to, has_end ? cap(walk, walk->container.leave_side) : ISOSURFACE_UNSEEN);
     }
 }
@@ -131,7 +120,8 @@ static bool is_abandoned(const void *client)
 unsigned isosurface_intervals(const PreparedPrimitive *primitive, const Ray *object, SideLeft left,
                               RayInterval *intervals)
 {
-    Walk walk = {.surface = isosurface_of(primitive->isosurface.list), .open = INTERVAL_ALL, .intervals = intervals};
+    Walk walk = {.surface = isosurface_of(primitive->isosurface.list),
+                 .found = {.open = INTERVAL_ALL, .intervals = intervals}};
     if (!container_interval(primitive, object, left, &walk.container) || !(walk.container.leave > 0.0)) {
         return 0;
     }
@@ -146,7 +136,7 @@ unsigned isosurface_intervals(const PreparedPrimitive *primitive, const Ray *obj
     }
     walk.is_alone = primitive->node == NODE_NONE;
     walk_roots(&walk);
-    return walk.count;
+    return walk.found.count;
 }
 
 // ---- surfaces

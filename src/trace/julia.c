@@ -18,36 +18,13 @@ typedef struct Walk {
     const Abandon *abandon;
     Ray ray;
     double length; // of the ray's direction
-    RayInterval open, *intervals;
-    unsigned count;
-    bool is_inside, is_alone, is_over;
+    IntervalWalk found;
+    bool is_alone, is_over;
 } Walk;
-
-static bool ball_ends(const Julia *julia, const Ray *ray, double *from, double *to)
-{
-    double square = vec3_length_squared(ray->direction), at = -vec3_dot(ray->origin, ray->direction) / square;
-    double depth =
-        julia->radius * julia->radius - vec3_length_squared(vec3_add_scaled(ray->origin, at, ray->direction));
-    if (!(depth > 0.0)) {
-        return false;
-    }
-    double half = sqrt(depth / square);
-    *from = at - half;
-    *to = at + half;
-    return *to > 0.0;
-}
 
 static void cross(Walk *walk, double t)
 {
-    if (walk->is_inside) {
-        walk->open.leave = t;
-        walk->open.leave_side = 0;
-        walk->intervals[walk->count++] = walk->open;
-    } else {
-        walk->open.enter = t;
-        walk->open.enter_side = 0;
-    }
-    walk->is_inside = !walk->is_inside;
+    interval_walk_cross(&walk->found, t, 0);
     walk->is_over = walk->is_alone;
 }
 
@@ -58,9 +35,9 @@ static double halve(const Walk *walk, double low, double high)
     for (;;) {
         double middle = 0.5 * (low + high);
         if (!((high - low) * walk->length > crossing_width && low < middle && middle < high)) {
-            return walk->is_inside ? low : high;
+            return walk->found.is_inside ? low : high;
         }
-        *(julia_holds(walk->julia, ray_at(walk->ray, middle), &reach) == walk->is_inside ? &low : &high) = middle;
+        *(julia_holds(walk->julia, ray_at(walk->ray, middle), &reach) == walk->found.is_inside ? &low : &high) = middle;
     }
 }
 
@@ -69,13 +46,13 @@ static void step_on(Walk *walk, double at, double to)
 {
     double least = 1.0 / walk->julia->precision, reach = 0.0;
     julia_holds(walk->julia, ray_at(walk->ray, at), &reach);
-    for (unsigned asked = 1; !walk->is_over && walk->count < JULIA_INTERVALS_MOST; asked++) {
-        double next = at + greater_of(least, walk->is_inside ? 0.0 : reach) / walk->length;
+    for (unsigned asked = 1; !walk->is_over && walk->found.count < JULIA_INTERVALS_MOST; asked++) {
+        double next = at + greater_of(least, walk->found.is_inside ? 0.0 : reach) / walk->length;
         bool is_lost = asked % ASKED_EVERY == 0 && walk->abandon && trace_is_abandoned(walk->abandon);
         if (!(next > at && next < to) || is_lost) {
             break;
         }
-        if (julia_holds(walk->julia, ray_at(walk->ray, next), &reach) != walk->is_inside) {
+        if (julia_holds(walk->julia, ray_at(walk->ray, next), &reach) != walk->found.is_inside) {
             cross(walk, halve(walk, at, next));
         }
         at = next;
@@ -89,12 +66,12 @@ unsigned julia_intervals(const PreparedPrimitive *primitive, const Ray *object, 
                  .abandon = world ? world->abandon : NULL,
                  .ray = *object,
                  .length = vec3_length(object->direction),
-                 .open = INTERVAL_ALL,
-                 .intervals = intervals};
-    double from, to, reach;
-    if (!ball_ends(walk.julia, object, &from, &to)) {
+                 .found = {.open = INTERVAL_ALL, .intervals = intervals}};
+    double middle, half, reach;
+    if (!ball_line(object, walk.julia->radius, &middle, &half) || !(half > 0.0 && middle + half > 0.0)) {
         return 0;
     }
+    double from = middle - half, to = middle + half;
     bool is_start = left.side != SIDE_NONE;
     double at = greater_of(from, start_ahead / walk.length);
     bool begins_inside = is_start && left.inward ? true : julia_holds(walk.julia, ray_at(*object, at), &reach);
@@ -102,21 +79,19 @@ unsigned julia_intervals(const PreparedPrimitive *primitive, const Ray *object, 
     if (begins_inside && from > 0.0) {
         cross(&walk, from);
     } else {
-        walk.is_inside = begins_inside;
+        walk.found.is_inside = begins_inside;
     }
     step_on(&walk, at, to);
     if (!(is_start && left.inward) && begins_inside && walk.is_over &&
-        walk.intervals[0].leave * walk.length < least_way) {
+        walk.found.intervals[0].leave * walk.length < least_way) {
         return 0;
     }
-    if (walk.is_over && walk.is_inside) { // it ends somewhere behind
-        walk.open.leave = (double)INFINITY;
-        walk.open.leave_side = SIDE_NONE;
-        walk.intervals[walk.count++] = walk.open;
-    } else if (walk.is_inside) {
+    if (walk.is_over && walk.found.is_inside) { // it ends somewhere behind
+        interval_walk_stay(&walk.found);
+    } else if (walk.found.is_inside) {
         cross(&walk, to);
     }
-    return walk.count;
+    return walk.found.count;
 }
 
 Vec3 julia_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side)

@@ -14,13 +14,13 @@ typedef struct LineLanes {
     Doubles first, second; // where `bends`, the function is concave between these; elsewhere it is convex
     Doubles unit;          // far above what rounding moves s by
     double size;           // of the solid, about
-    DoublesMask is_near, bends, is_told;
+    DoublesMask is_near, bends, is_certain;
 } LineLanes;
 
 // The function at a place, and what surely is more than it and its slope may be off.
 typedef struct LinePlace {
     Doubles value, slope, room, slope_room;
-    DoublesMask is_told;
+    DoublesMask is_certain;
 } LinePlace;
 
 // What is known of some rays: those that may meet the solid ahead, those of which it is certain, and their first roots

@@ -265,26 +265,14 @@ static unsigned line_roots(const Line *line, Polynomial *p, double *roots, int *
 static unsigned make_intervals(const Line *line, const double *roots, unsigned count, bool is_inside,
                                RayInterval *intervals)
 {
-    RayInterval interval = INTERVAL_ALL;
-    unsigned made = 0;
+    IntervalWalk walk = {.intervals = intervals, .open = INTERVAL_ALL, .is_inside = is_inside};
     for (unsigned i = 0; i < count; i++) {
-        double t = line->t_base + roots[i] * line->step;
-        if (is_inside) {
-            interval.leave = t;
-            interval.leave_side = 0;
-            intervals[made++] = interval;
-        } else {
-            interval.enter = t;
-            interval.enter_side = 0;
-        }
-        is_inside = !is_inside;
+        interval_walk_cross(&walk, line->t_base + roots[i] * line->step, 0);
     }
-    if (is_inside) {
-        interval.leave = (double)INFINITY;
-        interval.leave_side = SIDE_NONE;
-        intervals[made++] = interval;
+    if (walk.is_inside) {
+        interval_walk_stay(&walk);
     }
-    return made;
+    return walk.count;
 }
 
 // Whether the ray is inside behind its start: as it is said, but where the slope is against that by rounding; then the
@@ -385,10 +373,10 @@ unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left,
     unsigned count;
     bool is_start = left.side != SIDE_NONE, is_inside;
     line_set(&line, list, ray, is_start, -vec3_dot(ray->origin, ray->direction) / vec3_length_squared(ray->direction));
-    bool is_told =
+    bool is_certain =
         polynomial_order(list) == 2 && (is_start ? quadric_roots_left(&line, left.inward, roots, &count, &is_inside)
                                                  : quadric_roots(&line, roots, &count, &is_inside));
-    return is_told ? make_intervals(&line, roots, count, is_inside, intervals)
+    return is_certain ? make_intervals(&line, roots, count, is_inside, intervals)
                    : line_intervals(&line, left.inward, intervals);
 }
 

@@ -170,16 +170,20 @@ RT_ALWAYS_INLINE void primitives_side(const PreparedPrimitive *primitives, Primi
     }
 }
 
+// Places on surfaces.
+typedef struct PlaceLanes {
+    Vec3s point, normal;
+} PlaceLanes;
+
 // primitive_surface of each; all are of one kind, a constant of the caller.
 RT_ALWAYS_INLINE void primitives_surface(const PreparedPrimitive *primitives, PrimitiveKind kind, DoublesMask index,
-                                         DoublesMask side, const PrimitivesRay *ray, Doubles t, Vec3s *point,
-                                         Vec3s *normal)
+                                         DoublesMask side, const PrimitivesRay *ray, Doubles t, PlaceLanes *place)
 {
     Linears to_world = primitives_gather_linear(&primitives->to_world, index);
     Vec3s own = vec3s_add_scaled(ray->f, t, ray->d), outward;
     primitives_side(primitives, kind, index, side, &own, &outward);
-    *point = vec3s_add(ray->centre, linears_direction(&to_world, own));
-    *normal = vec3s_normalize(linears_normal(&ray->to_object, outward));
+    place->point = vec3s_add(ray->centre, linears_direction(&to_world, own));
+    place->normal = vec3s_normalize(linears_normal(&ray->to_object, outward));
 }
 
 #endif

@@ -86,8 +86,8 @@ RT_ALWAYS_INLINE void quartic_lanes_set(const PreparedPrimitive *primitive, bool
     quartic_sizes(quartic->sizes, doubles_splat(5.5 * line->size), sums);
     quartic->room = 2.0 * (QUARTIC_ROUNDING * sums[0] + quartic->moved * sums[1]);
     quartic->slope_room = 2.0 * quartic->along * (QUARTIC_ROUNDING * sums[1] + quartic->moved * sums[2]);
-    line->is_told = (square > 0x1p-900) & (square < 0x1p900) & (quartic->room < 0x1p900);
-    if (!doubles_mask_bits(line->is_near | ~line->is_told)) {
+    line->is_certain = (square > 0x1p-900) & (square < 0x1p900) & (quartic->room < 0x1p900);
+    if (!doubles_mask_bits(line->is_near | ~line->is_certain)) {
         return;
     }
     Doubles whole[LINE_TERMS_MOST];
@@ -101,7 +101,7 @@ RT_ALWAYS_INLINE void quartic_lanes_set(const PreparedPrimitive *primitive, bool
     Doubles root = doubles_sqrt(doubles_choose(line->bends, inner, zero));
     line->first = (half - root) / (6.0 * c[4]);
     line->second = (half + root) / (6.0 * c[4]);
-    line->is_told &= c[4] > 0.0;
+    line->is_certain &= c[4] > 0.0;
 }
 
 RT_ALWAYS_INLINE LinePlace quartic_lanes_at(const QuarticLanes *quartic, Doubles s)
@@ -111,7 +111,7 @@ RT_ALWAYS_INLINE LinePlace quartic_lanes_at(const QuarticLanes *quartic, Doubles
                        .slope = ((4.0 * c[4] * s + 3.0 * c[3]) * s + 2.0 * c[2]) * s + c[1],
                        .room = quartic->room,
                        .slope_room = quartic->slope_room,
-                       .is_told = ~(DoublesMask){0}};
+                       .is_certain = ~(DoublesMask){0}};
 }
 
 // Two steps more. Returns where what rounding of the terms moves the root by is as little as polynomial.c wants it.

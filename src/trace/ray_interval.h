@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 #include "base/attributes.h"
+#include "math/ray.h"
 #include "math/vec3.h"
 
 enum { SIDE_NONE = 255, SIDES_MOST = 8 };
@@ -60,6 +61,45 @@ RT_ALWAYS_INLINE bool interval_slab(double o, double d, double low, double high,
     *interval =
         d > 0.0 ? (RayInterval){t_low, t_high, low_side, high_side} : (RayInterval){t_high, t_low, high_side, low_side};
     return interval->enter <= interval->leave;
+}
+
+// ---- intervals found from one crossing of the line to the next
+
+typedef struct IntervalWalk {
+    RayInterval *intervals, open; // `open` is INTERVAL_ALL at the beginning
+    unsigned count;
+    bool is_inside;
+} IntervalWalk;
+
+static inline void interval_walk_cross(IntervalWalk *walk, double t, uint8_t side)
+{
+    if (walk->is_inside) {
+        walk->open.leave = t;
+        walk->open.leave_side = side;
+        walk->intervals[walk->count++] = walk->open;
+    } else {
+        walk->open.enter = t;
+        walk->open.enter_side = side;
+    }
+    walk->is_inside = !walk->is_inside;
+}
+
+// The line stays inside as far as anybody asks.
+static inline void interval_walk_stay(IntervalWalk *walk)
+{
+    walk->open.leave = (double)INFINITY;
+    walk->open.leave_side = SIDE_NONE;
+    walk->intervals[walk->count++] = walk->open;
+}
+
+// Where a line is in a ball about 0: middle - half to middle + half; false where it is not.
+static inline bool ball_line(const Ray *ray, double radius, double *middle, double *half)
+{
+    double square = vec3_length_squared(ray->direction), at = -vec3_dot(ray->origin, ray->direction) / square;
+    double depth = radius * radius - vec3_length_squared(vec3_add_scaled(ray->origin, at, ray->direction));
+    *middle = at;
+    *half = sqrt(depth / square);
+    return depth >= 0.0 && square > 0.0;
 }
 
 #endif

@@ -3,20 +3,20 @@
 // SPDX-License-Identifier: MIT
 #include "trace/shapes.h"
 
-void primitive_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, RootSpan span, uint8_t side,
-                     bool leaves, Foremost *first)
+void primitive_offer(const ShapeTable *table, const Ray *ray, const PrimitiveRoot *root, RootSpan span, Foremost *first)
 {
-    const PreparedPrimitive *primitive = &table->primitives[index];
+    const PreparedPrimitive *primitive = &table->primitives[root->index];
+    double t = root->t;
     if (!(t > 0.0 && t < (double)INFINITY && foremost_admits(first, span))) {
         return;
     }
-    bool inside = leaves != primitive->flips;
+    bool inside = root->leaves != primitive->flips;
     if (primitive_is_flat(primitive)) {
         Vec3 point, normal;
-        primitive_surface(primitive, ray, t, side, &point, &normal);
+        primitive_surface(primitive, ray, t, root->side, &point, &normal);
         inside = vec3_dot(normal, ray->direction) > 0.0;
     }
-    foremost_offer(first, t, span, primitive_shape(index, side), inside, primitive->order);
+    foremost_offer(first, t, span, primitive_shape(root->index, root->side), inside, primitive->order);
 }
 
 uint32_t table_face_primitive(const ShapeTable *table, ShapeId face)

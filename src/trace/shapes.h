@@ -191,9 +191,16 @@ double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart star
 // Where the ray hit. The normal points out of what the primitive is in.
 Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit);
 
-// csg.c: offers the nearest crossing of a CSG tree that is seen. None lies before `enter`, but for rounding.
-void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
-                 double enter, Foremost *first);
+// A ray as a CSG tree is asked by it.
+typedef struct CsgRay {
+    const Ray *ray;
+    RayStart start;
+    double start_error;
+    double enter; // no crossing lies before, but for rounding
+} CsgRay;
+
+// csg.c: offers the nearest crossing of a CSG tree that is seen.
+void csg_closest(const ShapeTable *table, const CsgTree *csg, const CsgRay *asked, Foremost *first);
 
 // Where a crossing may be that is off by no more than `error`, and not before `enter`, but for rounding.
 RT_ALWAYS_INLINE RootSpan crossing_span(double t, double error, double enter)
@@ -202,11 +209,18 @@ RT_ALWAYS_INLINE RootSpan crossing_span(double t, double error, double enter)
     return (RootSpan){span.from < enter ? enter : span.from, span.to < enter ? enter : span.to};
 }
 
-// Offers a crossing of a side of a primitive, into it or out of it.
+// A crossing of a side of a primitive, into it or out of it.
+typedef struct PrimitiveRoot {
+    uint32_t index; // of the primitive in the table
+    uint8_t side;
+    bool leaves;
+    double t;
+} PrimitiveRoot;
+
+void primitive_offer(const ShapeTable *table, const Ray *ray, const PrimitiveRoot *root, RootSpan span,
+                     Foremost *first);
+
 // The same of a face of a mesh, `shape`.
 void face_offer(const ShapeTable *table, ShapeId shape, const Ray *ray, double t, RootSpan span, Foremost *first);
-
-void primitive_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, RootSpan span, uint8_t side,
-                     bool leaves, Foremost *first);
 
 #endif

@@ -104,12 +104,11 @@ static bool is_passed(double t, double error, double passed)
 }
 
 // Offers a root of the item that is asked.
-static void root_offer(ShapeQuery *q, uint32_t index, double t, double error, uint8_t side, bool leaves,
-                       Foremost *first)
+static void root_offer(ShapeQuery *q, const PrimitiveRoot *root, double error, Foremost *first)
 {
     double enter;
     if (item_enters(q, &enter)) {
-        primitive_offer(q->table, index, q->ray, t, crossing_span(t, error, enter), side, leaves, first);
+        primitive_offer(q->table, q->ray, root, crossing_span(root->t, error, enter), first);
     }
 }
 

@@ -70,11 +70,11 @@ RT_ALWAYS_INLINE void surfaces_fill(const ShapeTable *table, const double *const
         DoublesMask index = *(const DoublesMask *)&of->index[at], side = *(const DoublesMask *)&of->side[at];
         PrimitivesRay rays = primitives_ray(table->primitives, index, vec3s_load(begin, 0),
                                             vec3s_load(surfaces->direction, at));
-        Vec3s point, normal;
-        primitives_surface(table->primitives, kind, index, side, &rays, doubles_load(t), &point, &normal);
+        PlaceLanes place;
+        primitives_surface(table->primitives, kind, index, side, &rays, doubles_load(t), &place);
         DoublesMask is_own = doubles_bits_mask(own);
-        vec3s_store(surfaces->point, at, vec3s_choose(is_own, point, vec3s_load(surfaces->point, at)));
-        vec3s_store(surfaces->outward, at, vec3s_choose(is_own, normal, vec3s_load(surfaces->outward, at)));
+        vec3s_store(surfaces->point, at, vec3s_choose(is_own, place.point, vec3s_load(surfaces->point, at)));
+        vec3s_store(surfaces->outward, at, vec3s_choose(is_own, place.normal, vec3s_load(surfaces->outward, at)));
     }
     for (uint64_t rest = of->own; rest; rest &= rest - 1) {
         int i = __builtin_ctzll(rest);

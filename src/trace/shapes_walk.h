@@ -20,13 +20,13 @@ static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Forem
     }
     double error = primitive_crossing_error(primitive, q->ray, object, t, 0);
     if (!is_passed(t, error, passed_error(q, primitive))) {
-        root_offer(q, index, t, error, 0, false, first);
+        root_offer(q, &(PrimitiveRoot){index, 0, false, t}, error, first);
     }
 }
 
-// ---- a curve, whose first root the test in lanes tells; see curve_lanes.h
+// ---- a curve, whose first root the test in lanes finds; see curve_lanes.h
 
-// The same for one ray: whether it is told, and then where it is; `along` as in CurveFirst. *is_missed: for certain.
+// The same for one ray: whether it is found, and then where it is; `along` as in CurveFirst. *is_missed: for certain.
 static __attribute__((noinline)) bool curve_first(const PreparedPrimitive *primitive, const Ray *object, double *t,
                                                   double *along, bool *is_missed)
 {
@@ -51,7 +51,7 @@ static __attribute__((noinline)) bool curve_first(const PreparedPrimitive *primi
     return true;
 }
 
-// All intervals, the root that is told in its place.
+// All intervals, with the root that the test in lanes finds in its place.
 static unsigned curve_intervals(const PreparedPrimitive *primitive, const Ray *object, RayInterval *intervals)
 {
     double t, along;
@@ -118,35 +118,34 @@ static double ball_refine(const PreparedPrimitive *primitive, const Ray *world, 
 }
 
 // A root of a ball, which it may be that the ray has passed: then the other root.
-static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const SphereRay *ray, double t, bool leaves,
-                       double passed, Foremost *first)
+static void ball_offer(ShapeQuery *q, const Ray *object, const SphereRay *ray, PrimitiveRoot root, double passed,
+                       Foremost *first)
 {
-    const PreparedPrimitive *primitive = &q->table->primitives[index];
+    const PreparedPrimitive *primitive = &q->table->primitives[root.index];
     const SphereData unit = UNIT_SPHERE;
     span_refine(q, first);
-    double error = primitive_ball_error(primitive, q->ray, object, t);
-    if (is_passed(t, error, passed)) {
-        t = leaves ? 0.0 : sphere_root_inward(ray, &unit);
-        error = primitive_ball_error(primitive, q->ray, object, t);
-        leaves = true;
-        if (is_passed(t, error, passed)) {
+    double error = primitive_ball_error(primitive, q->ray, object, root.t);
+    if (is_passed(root.t, error, passed)) {
+        root.t = root.leaves ? 0.0 : sphere_root_inward(ray, &unit);
+        error = primitive_ball_error(primitive, q->ray, object, root.t);
+        root.leaves = true;
+        if (is_passed(root.t, error, passed)) {
             return;
         }
     }
-    root_offer(q, index, t, error, 0, leaves, first);
+    root_offer(q, &root, error, first);
 }
 
 // Takes a primitive, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
 // asks. True when it was.
-static bool primitive_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
-                               Foremost *first)
+static bool primitive_is_first(ShapeQuery *q, PrimitiveRoot root, double bound, double enter, Foremost *first)
 {
-    const PreparedPrimitive *primitive = &q->table->primitives[index];
-    double to = t + bound < enter ? enter : t + bound;
+    const PreparedPrimitive *primitive = &q->table->primitives[root.index];
+    double t = root.t, to = t + bound < enter ? enter : t + bound;
     if (!(to < first->from && to < first->beaten && to < first->limit)) {
         return false;
     }
-    first->hit = (Hit){t, primitive_shape(index, 0), leaves != primitive->flips};
+    first->hit = (Hit){t, primitive_shape(root.index, 0), root.leaves != primitive->flips};
     first->order = primitive->order;
     first->is_torn = false;
     first->from = t - bound < enter ? enter : t - bound;
@@ -174,7 +173,7 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     if (verdict == SPHERE_UNCERTAIN) {
         t = sphere_exact(&ray, &unit, NULL, &leaves);
         if (t > 0.0) {
-            ball_offer(q, index, &object, &ray, t, leaves, passed_error(q, primitive), first);
+            ball_offer(q, &object, &ray, (PrimitiveRoot){index, 0, leaves, t}, passed_error(q, primitive), first);
         }
         return;
     }
@@ -183,12 +182,12 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
         return;
     }
     double passed = passed_error(q, primitive);
-    double root = q->is_any ? t : sphere_refine(&ray, &unit, t); // near the ends of the range the bound is not that of t
-    if (!is_passed(root, bound, passed) && primitive_is_first(q, index, root, bound, leaves, enter, first)) {
+    PrimitiveRoot root = {index, 0, leaves, q->is_any ? t : sphere_refine(&ray, &unit, t)}; // near the ends of the range the bound is not that of t
+    if (!is_passed(root.t, bound, passed) && primitive_is_first(q, root, bound, enter, first)) {
         return;
     }
-    root = q->is_any ? sphere_refine(&ray, &unit, t) : root;
-    ball_offer(q, index, &object, &ray, root, leaves, passed, first);
+    root.t = q->is_any ? sphere_refine(&ray, &unit, t) : root.t;
+    ball_offer(q, &object, &ray, root, passed, first);
 }
 
 // A curve that the ray does not start on. False: several_closest is to be asked.
@@ -206,7 +205,7 @@ static bool curve_closest(ShapeQuery *q, uint32_t index, const Ray *object, Fore
         return true;
     }
     return !is_passed(t, bound, passed_error(q, primitive)) &&
-           primitive_is_first(q, index, t, bound, false, enter, first);
+           primitive_is_first(q, (PrimitiveRoot){index, 0, false, t}, bound, enter, first);
 }
 
 // A ball that the ray goes into where it starts.
@@ -217,7 +216,7 @@ static void ball_closest_inward(ShapeQuery *q, uint32_t index, Foremost *first)
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     double t = sphere_root_inward(&ray, &unit);
     if (t > 0.0) {
-        ball_offer(q, index, &object, &ray, t, true, -1.0, first);
+        ball_offer(q, &object, &ray, (PrimitiveRoot){index, 0, true, t}, -1.0, first);
     }
 }
 
@@ -232,36 +231,46 @@ static bool end_is_met(ShapeQuery *q, double to, const Foremost *first)
 }
 
 // An end of an interval that is no more off than `room`. False: the ray has passed it, or it has no surface.
-RT_ALWAYS_INLINE bool end_offer(ShapeQuery *q, uint32_t index, const Ray *object, double t, uint8_t side, bool leaves,
-                                double room, double passed, Foremost *first)
+RT_ALWAYS_INLINE bool end_offer(ShapeQuery *q, const Ray *object, PrimitiveRoot root, double room, double passed,
+                                Foremost *first)
 {
-    const PreparedPrimitive *primitive = &q->table->primitives[index];
-    if (!(t > 0.0) || primitive_side_is_unseen(primitive, side)) {
+    const PreparedPrimitive *primitive = &q->table->primitives[root.index];
+    if (!(root.t > 0.0) || primitive_side_is_unseen(primitive, root.side)) {
         return false;
     }
-    if (!leaves && q->is_any && passed < 0.0 && end_is_met(q, t + 2.0 * room, first)) {
-        first->hit.shape = primitive_shape(index, side); // whatever its error is
+    if (!root.leaves && q->is_any && passed < 0.0 && end_is_met(q, root.t + 2.0 * room, first)) {
+        first->hit.shape = primitive_shape(root.index, root.side); // whatever its error is
         return true;
     }
-    double error = primitive_end_error(primitive, q->ray, object, t, side, room);
-    if (is_passed(t, error, passed)) {
+    double error = primitive_end_error(primitive, q->ray, object, root.t, root.side, room);
+    if (is_passed(root.t, error, passed)) {
         return false;
     }
-    root_offer(q, index, t, error, side, leaves, first);
+    root_offer(q, &root, error, first);
     return true;
 }
 
+// An interval of a primitive's.
+typedef struct PrimitiveInterval {
+    uint32_t index;
+    RayInterval ends;
+    double room;   // no end is more off
+    bool is_film;  // it is left where others are entered, and the other way round
+    bool is_start; // the ray starts in it, at its beginning
+} PrimitiveInterval;
+
 // The first end of an interval that the ray has not passed; where it starts on the primitive, what it starts in it
 // leaves.
-RT_ALWAYS_INLINE void interval_offer(ShapeQuery *q, uint32_t index, const Ray *object, const RayInterval *interval,
-                                     double room, bool is_film, bool is_inside, double passed, Foremost *first)
+RT_ALWAYS_INLINE void interval_offer(ShapeQuery *q, const Ray *object, const PrimitiveInterval *own, double passed,
+                                     Foremost *first)
 {
-    if (interval->enter - 2.0 * room > first->limit ||
-        (!is_inside &&
-         end_offer(q, index, object, interval->enter, interval->enter_side, is_film, room, passed, first))) {
+    const PrimitiveRoot enter = {own->index, own->ends.enter_side, own->is_film, own->ends.enter};
+    const PrimitiveRoot leave = {own->index, own->ends.leave_side, !own->is_film, own->ends.leave};
+    if (enter.t - 2.0 * own->room > first->limit ||
+        (!own->is_start && end_offer(q, object, enter, own->room, passed, first))) {
         return;
     }
-    (void)end_offer(q, index, object, interval->leave, interval->leave_side, !is_film, room, passed, first);
+    (void)end_offer(q, object, leave, own->room, passed, first);
 }
 
 // A primitive that is not convex.
@@ -273,17 +282,17 @@ static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t in
     if (shapes_are_abandoned(q->table)) {
         return; // a line through a polynomial takes up to a millisecond
     }
-    bool is_told = left.side == SIDE_NONE && primitive_is_curve(primitive);
-    unsigned count = is_told ? curve_intervals(primitive, object, intervals)
+    bool by_lanes = left.side == SIDE_NONE && primitive_is_curve(primitive);
+    unsigned count = by_lanes ? curve_intervals(primitive, object, intervals)
                              : primitive_intervals(primitive, object, left, intervals);
     if (count == 0) {
         return;
     }
     double passed = left.side != SIDE_NONE ? -1.0 : passed_error(q, primitive);
     for (unsigned i = 0; i < count; i++) {
-        bool is_film = primitive_is_film(primitive, intervals[i].leave_side);
-        interval_offer(q, index, object, &intervals[i], interval_room(intervals, count, i), is_film, false, passed,
-                       first);
+        PrimitiveInterval own = {index, intervals[i], interval_room(intervals, count, i),
+                                 primitive_is_film(primitive, intervals[i].leave_side), false};
+        interval_offer(q, object, &own, passed, first);
     }
 }
 
@@ -296,7 +305,8 @@ RT_ALWAYS_INLINE void convex_closest(ShapeQuery *q, uint32_t index, const Ray *o
     }
     bool is_start = left.side != SIDE_NONE;
     double passed = is_start ? -1.0 : passed_error(q, primitive);
-    interval_offer(q, index, object, &interval, interval.leave - interval.enter, false, is_start, passed, first);
+    const PrimitiveInterval own = {index, interval, interval.leave - interval.enter, false, is_start};
+    interval_offer(q, object, &own, passed, first);
 }
 
 // ---- a mesh: the face with the least t, and of those the first, is offered, if the ray has not passed it; for a
@@ -421,8 +431,8 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
         cluster_closest(q, &table->clusters[index - table->primitive_count - table->csg_count], first);
     } else if (item_enters(q, &enter) && enter <= first->limit) {
         span_refine(q, first);
-        csg_closest(table, &table->csg_trees[index - table->primitive_count], q->ray, q->start, start_error(q), enter,
-                    first);
+        const CsgRay asked = {q->ray, q->start, start_error(q), enter};
+        csg_closest(table, &table->csg_trees[index - table->primitive_count], &asked, first);
     }
 }
 

@@ -55,7 +55,7 @@ RT_ALWAYS_INLINE bool sphere_table_is_few(const SphereTable *table)
 }
 
 // The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE. While `is_approximate`,
-// hit.t is a sphere's root as sphere_test gives it; nearest_settle makes it right.
+// hit.t is a sphere's root as sphere_test gives it; nearest_refine makes it right.
 typedef struct Nearest {
     Hit hit;
     uint32_t order; // of hit.shape
@@ -101,7 +101,8 @@ typedef struct TileSurfaces {
 // Rays from surfaces to a point, or to places no farther than `aside` from it.
 typedef struct SurfaceRays {
     Vec3 end;
-    double aside, farthest; // no distance is greater
+    double end_radius; // no ray ends farther from `end`
+    double farthest;   // no distance is greater
     _Alignas(64) double towards[3][TILE_RAYS]; // of about unit length
     double distance[TILE_RAYS];
 } SurfaceRays;
@@ -303,7 +304,7 @@ RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, b
 }
 
 // Refines an approximate root.
-RT_ALWAYS_INLINE void nearest_settle(const SphereTable *table, const SphereRay *ray, Nearest *nearest)
+RT_ALWAYS_INLINE void nearest_refine(const SphereTable *table, const SphereRay *ray, Nearest *nearest)
 {
     if (nearest->is_approximate) {
         SphereData ball = sphere_table_ball(table, shape_index(nearest->hit.shape));
@@ -322,40 +323,53 @@ RT_ALWAYS_INLINE double nearest_limit(double t_max)
 // order.
 #define SPHERE_TIE 0x1p-51
 
+// A root of a sphere of the table.
+typedef struct SphereRoot {
+    uint32_t slot;
+    SphereData ball;
+    double t;
+    bool inside;
+    bool is_approximate; // sphere_test's
+} SphereRoot;
+
 // A sphere that is met about where another one is, which the roots must tell apart once they are refined. Equal roots
 // are those of equal spheres, or as good as equal: then the order of declaration decides.
-RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, uint32_t slot, const SphereData *ball,
-                                 double t, bool inside, bool is_approximate, Nearest *nearest)
+RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, const SphereRoot *root,
+                                 Nearest *nearest)
 {
-    nearest_settle(table, ray, nearest);
-    t = is_approximate ? sphere_refine(ray, ball, t) : t;
+    const SphereData *ball = &root->ball;
+    uint32_t order_own = table->info[root->slot].order;
+    nearest_refine(table, ray, nearest);
+    double t = root->is_approximate ? sphere_refine(ray, ball, root->t) : root->t;
     bool is_nearer = t < nearest->hit.t;
     if (t > 0.0 && nearest->hit.shape != SHAPE_NONE) {
         SphereData other = sphere_table_ball(table, shape_index(nearest->hit.shape));
         if (fabs(t - nearest->hit.t) <= SPHERE_TIE * nearest->hit.t || vec3_equal(ball->centre, other.centre)) {
-            int order = sphere_roots_compare(ray, ball, inside, &other, nearest->hit.inside, t);
-            is_nearer = order < 0 || (order == 0 && table->info[slot].order < nearest->order);
+            int order = sphere_roots_compare(ray, ball, root->inside, &other, nearest->hit.inside, t);
+            is_nearer = order < 0 || (order == 0 && order_own < nearest->order);
         }
     }
     if (t > 0.0 && is_nearer) {
-        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, false};
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, root->slot), root->inside}, order_own, false};
     }
 }
 
-// A sphere that is met, by sphere_test (t is approximate) or by sphere_exact. Roots are refined only where approximate
+// A sphere that is met, by sphere_test or by sphere_exact. Roots are refined only where approximate
 // ones could be taken in the wrong order, so in the end the same sphere is nearest as if all had been.
-RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const SphereRay *ray, uint32_t slot,
-                                           const SphereData *ball, double t, bool inside, bool is_approximate,
+RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const SphereRay *ray, const SphereRoot *root,
                                            Nearest *nearest)
 {
+    double t = root->t;
     double slack = SPHERE_ROOT_SLACK * nearest->hit.t;
     if (!(t > 0.0) || t > nearest->hit.t + slack) {
         return;
     }
     if (RT_LIKELY(t < nearest->hit.t - slack || isinf(nearest->hit.t))) {
-        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, is_approximate};
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, root->slot), root->inside},
+                             table->info[root->slot].order,
+                             root->is_approximate};
     } else {
-        nearest_offer_tie(table, ray, slot, ball, t, inside, is_approximate, nearest);
+        nearest_offer_tie(table, ray, root, nearest);
     }
 }
 

@@ -191,13 +191,13 @@ static bool crossed_merge(const CrossedList *into, const CrossedList *out, doubl
 // The rays of a vector for which the crossings are known.
 static unsigned crossed_end(const CrossedVector *v, unsigned asked, int at, TileCrossings *crossings)
 {
-    unsigned told = 0;
+    unsigned known = 0;
     for (unsigned open = ~doubles_mask_bits(v->is_open) & asked; open; open &= open - 1) {
         unsigned i = (unsigned)__builtin_ctz(open);
         crossings->count[(unsigned)at + i] = (uint8_t)(v->into[i].count + v->out[i].count);
-        told |= (unsigned)crossed_merge(&v->into[i], &v->out[i], v->lines.apart[i], crossings->shape[(unsigned)at + i]) << i;
+        known |= (unsigned)crossed_merge(&v->into[i], &v->out[i], v->lines.apart[i], crossings->shape[(unsigned)at + i]) << i;
     }
-    return told;
+    return known;
 }
 
 static uint64_t spheres_crossed(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
@@ -205,7 +205,7 @@ static uint64_t spheres_crossed(const SphereTable *table, const PlaneShape *plan
                                 TileCrossings *crossings)
 {
     const unsigned all = (1u << DOUBLES) - 1;
-    uint64_t starts[SPHERES_FEW_MOST] = {0}, on_plane = 0, told = 0;
+    uint64_t starts[SPHERES_FEW_MOST] = {0}, on_plane = 0, known = 0;
     double reach = crossed_reach(table, plane);
     if (reach == 0.0) {
         return 0;
@@ -232,9 +232,9 @@ static uint64_t spheres_crossed(const SphereTable *table, const PlaneShape *plan
             DoublesMask met = crossed_plane(&v.lines, plane, doubles_bits_mask(on_plane >> at & all), &root, &v.is_open);
             crossed_add(v.into, true, doubles_mask_bits(met & ~v.is_open) & own, root, plane_shape);
         }
-        told |= (uint64_t)crossed_end(&v, own, at, crossings) << at;
+        known |= (uint64_t)crossed_end(&v, own, at, crossings) << at;
     }
-    return told;
+    return known;
 }
 
 // One ray against a vector of spheres at once. By itself, for what comes after it is not of vectors: GCC 12 leaves their

@@ -24,7 +24,7 @@ enum {
 // Rays from one shape; all arrays are filled up to a whole vector.
 typedef struct RayGroup {
     Vec3 end;
-    double aside, farthest; // of the rays' ends from there; of their starts
+    double end_radius, farthest; // of the rays' ends from there; of their starts
     SphereData start;       // equals none where they do not start on a sphere
     unsigned count, whole;
     _Alignas(64) double origin[3][TILE_RAYS];
@@ -138,7 +138,7 @@ RT_ALWAYS_INLINE bool group_tree(const GroupTree *tree, const RayGroup *group, c
         if (!direction_octant(&range, octant, &least, &greatest)) {
             continue;
         }
-        if (!bvh_walk_start_beam(&walk, tree->bvh, group->end, group->aside, least, greatest, &is_too_far)) {
+        if (!bvh_walk_start_beam(&walk, tree->bvh, group->end, group->end_radius, least, greatest, &is_too_far)) {
             if (is_too_far) {
                 return false;
             }
@@ -159,7 +159,7 @@ static uint64_t group_none(const RayGroup *group)
 static bool group_occluded(const SphereTable *table, const RayGroup *group, uint64_t *occluded)
 {
     unsigned middle = group->count / 2, last = group->count - 1;
-    RayCone cone = {.origin = group->end, .aside = group->aside};
+    RayCone cone = {.origin = group->end, .end_radius = group->end_radius};
     cone.axis = vec3_normalize(vec3(group->seen[0][0] + group->seen[0][middle] + group->seen[0][last],
                                     group->seen[1][0] + group->seen[1][middle] + group->seen[1][last],
                                     group->seen[2][0] + group->seen[2][middle] + group->seen[2][last]));
@@ -199,7 +199,7 @@ static bool group_look(RayGroup *group)
 static bool group_gather(const TileSurfaces *from, const SurfaceRays *rays, uint64_t members, RayGroup *group)
 {
     group->end = rays->end;
-    group->aside = rays->aside;
+    group->end_radius = rays->end_radius;
     unsigned count = 0, last = 0;
     for (; members || count % DOUBLES != 0; members &= members - 1, count++) {
         last = members ? (unsigned)__builtin_ctzll(members) : last;

@@ -31,8 +31,8 @@ enum { HALVES = SPHERE_BLOCK / DOUBLES };
 // What the test of a block finds of its eight spheres.
 typedef struct BlockHits {
     _Alignas(64) double t[SPHERE_BLOCK]; // approximate roots
-    unsigned met;                        // by a root no later than the limit, or doubtful
-    unsigned doubtful;
+    unsigned met;                        // by a root no later than the limit, or uncertain
+    unsigned uncertain;
     unsigned inside;
 } BlockHits;
 
@@ -88,7 +88,7 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
         in_time |= doubles_ge(doubles_splat(limit), t) << (i * DOUBLES);
     }
     possible &= ahead | ~outer;
-    hits->doubtful = possible & ~certain;
+    hits->uncertain = possible & ~certain;
     hits->met = possible & (in_time | ~certain);
     hits->inside = ~outer;
     return hits->met != 0;
@@ -106,17 +106,15 @@ RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, co
         unsigned at = (unsigned)__builtin_ctz(hits.met);
         hits.met &= hits.met - 1;
         uint32_t slot = block * SPHERE_BLOCK + at;
-        SphereData ball = sphere_table_ball(table, slot);
-        bool inside = hits.inside >> at & 1;
-        double t = hits.t[at];
-        bool is_approximate = !(hits.doubtful >> at & 1);
-        if (sphere_data_equal(&ball, &start->ball)) {
+        SphereRoot root = {slot, sphere_table_ball(table, slot), hits.t[at], hits.inside >> at & 1,
+                           !(hits.uncertain >> at & 1)};
+        if (sphere_data_equal(&root.ball, &start->ball)) {
             continue;
         }
-        if (RT_UNLIKELY(!is_approximate)) {
-            t = sphere_exact(ray, &ball, &start->ball, &inside);
+        if (RT_UNLIKELY(!root.is_approximate)) {
+            root.t = sphere_exact(ray, &root.ball, &start->ball, &root.inside);
         }
-        nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_approximate, nearest);
+        nearest_offer_sphere(table, ray, &root, nearest);
     } while (hits.met);
     return true;
 }
@@ -136,7 +134,7 @@ RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, c
         if (sphere_data_equal(&ball, &start->ball)) {
             continue;
         }
-        if (RT_UNLIKELY(hits.doubtful >> at & 1)) {
+        if (RT_UNLIKELY(hits.uncertain >> at & 1)) {
             double t = sphere_exact(ray, &ball, &start->ball, &inside);
             if (t > 0.0 && t < t_max) {
                 return true;
@@ -167,7 +165,7 @@ static void spheres_closest(const SphereTable *table, const SphereRay *ray, uint
             }
         }
     }
-    nearest_settle(table, ray, nearest); // here, where the processor may have a fused multiply-add
+    nearest_refine(table, ray, nearest); // here, where the processor may have a fused multiply-add
 }
 
 static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, uint32_t start_slot, double t_max)

@@ -1,6 +1,6 @@
 // Rays that continue from surfaces against few spheres and a plane: part of spheres_kernel.c.
 //
-// Some rays at once against one sphere after the other, by the arithmetic of single rays (trace/sphere.inc). A ray for which one of them is doubtful, or two are about equally near, is left to be asked by
+// Some rays at once against one sphere after the other, by the arithmetic of single rays (trace/sphere.inc). A ray for which one of them is uncertain, or two are about equally near, is left to be asked by
 // itself.
 //
 // SPDX-License-Identifier: MIT
@@ -111,7 +111,7 @@ RT_ALWAYS_INLINE void secondary_sphere(SecondaryVector *v, const SphereData *bal
 }
 
 // Makes the roots right.
-static void secondary_settle(const SphereTable *table, SecondaryVector *v)
+static void secondary_refine(const SphereTable *table, SecondaryVector *v)
 {
     DoublesMask met = v->is_approximate;
     unsigned any = doubles_mask_bits(met);
@@ -179,7 +179,7 @@ static uint64_t closest_secondary(const SphereTable *table, const PlaneShape *pl
             }
             secondary_sphere(&v, &ball, i, (unsigned)(starts[i] >> at) & all);
         }
-        secondary_settle(table, &v);
+        secondary_refine(table, &v);
         if (plane) {
             secondary_plane(&v, plane, plane_shape, (unsigned)(on_plane >> at) & all);
         }

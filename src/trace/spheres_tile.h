@@ -149,8 +149,8 @@ typedef struct TileSphere {
 typedef struct RowHits {
     _Alignas(64) double t[TILE_ROW]; // approximate roots
     unsigned nearest;                // done
-    unsigned other;                  // met about where something was met before, or doubtful
-    unsigned doubtful;
+    unsigned other;                  // met about where something was met before, or uncertain
+    unsigned uncertain;
 } RowHits;
 
 // The rows that a sphere touches before all their rays have met something.
@@ -175,7 +175,7 @@ static void row_test(const TileSphere *sphere, TileBeam *beam, unsigned begin, R
     const SphereTile *tile = beam->tile;
     const Vec3s f = vec3s_splat(sphere->f);
     const Doubles radius_squared = doubles_splat(sphere->ball.radius_squared), c = doubles_splat(sphere->c);
-    row->nearest = row->other = row->doubtful = 0;
+    row->nearest = row->other = row->uncertain = 0;
     for (unsigned i = 0; i < TILE_ROW; i += DOUBLES) {
         unsigned at = begin + i;
         SphereRays rays = sphere_tile_rays(tile, at);
@@ -206,7 +206,7 @@ static void row_test(const TileSphere *sphere, TileBeam *beam, unsigned begin, R
         if (RT_UNLIKELY(other)) {
             doubles_store(&row->t[i], root);
             row->other |= other << i;
-            row->doubtful |= (other & ~certain) << i;
+            row->uncertain |= (other & ~certain) << i;
         }
     }
 }
@@ -221,11 +221,11 @@ RT_SELDOM void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, 
     Nearest nearest = {{hits->t[i], before, hits->inside & bit},
                        before == SHAPE_NONE ? 0 : beam->table->info[shape_index(before)].order,
                        beam->approximate & bit};
-    bool inside = sphere->c < 0.0;
+    SphereRoot root = {sphere->slot, sphere->ball, t, sphere->c < 0.0, !is_uncertain};
     if (RT_UNLIKELY(is_uncertain)) {
-        t = sphere_exact(&ray, &sphere->ball, NULL, &inside);
+        root.t = sphere_exact(&ray, &sphere->ball, NULL, &root.inside);
     }
-    nearest_offer_sphere(beam->table, &ray, sphere->slot, &sphere->ball, t, inside, !is_uncertain, &nearest);
+    nearest_offer_sphere(beam->table, &ray, &root, &nearest);
     tile_hit_set(hits, i, &nearest.hit);
     beam->shape[i] = nearest.hit.shape;
     beam->has_news = true;
@@ -257,7 +257,7 @@ static void beam_row(TileBeam *beam, const TileSphere *sphere, unsigned begin)
     beam->approximate |= nearest;
     for (; RT_UNLIKELY(row.other); row.other &= row.other - 1) {
         unsigned i = (unsigned)__builtin_ctz(row.other);
-        beam_offer(beam, sphere, begin + i, row.t[i], row.doubtful >> i & 1);
+        beam_offer(beam, sphere, begin + i, row.t[i], row.uncertain >> i & 1);
     }
     beam->row_limit[begin / TILE_ROW] = row_limit(hits, begin);
     beam->has_news = true;

@@ -1,8 +1,8 @@
 // What a torus is along some rays, in its own space: part of curve_lanes.h.
 //
 // With rho the distance from the axis, h = (rho - R)² + y² - r², which is convex but between the two places where rho
-// is the cube root that torus.c speaks of. Places are told to seven digits: between them and the true ones h is nearly
-// straight. Not told are rays along the axis or next to it, for which s_axis and least2 may be far off.
+// is the cube root that torus.c speaks of. Places are known to seven digits: between them and the true ones h is nearly
+// straight. Rays are not certain along the axis or next to it, for which s_axis and least2 may be far off.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_TORUS_LANES_H
@@ -77,7 +77,7 @@ RT_ALWAYS_INLINE void torus_lanes_set(const PreparedPrimitive *primitive, const 
                           .minor = minor};
     line->unit = torus->unit;
     line->size = 1.0;
-    line->is_told = across2 >= 0x1p-16;
+    line->is_certain = across2 >= 0x1p-16;
     line->start = -line->t_base / line->step;
     torus_lanes_near(torus, line);
     Doubles turn = doubles_cube_root(major * across2 * torus->least2 / torus->square);
@@ -96,7 +96,7 @@ RT_ALWAYS_INLINE LinePlace torus_lanes_at(const TorusLanes *torus, Doubles s)
                        .slope = 2.0 * (torus->square * s + torus->along - torus->major * (torus->across2 * x / rho)),
                        .room = torus->unit * (doubles_abs(from) + doubles_abs(y) + torus->unit),
                        .slope_room = 2.0 * torus->unit,
-                       .is_told = rho >= 0x1p-8};
+                       .is_certain = rho >= 0x1p-8};
 }
 
 // h as double words, of the line as it is given.
@@ -128,7 +128,7 @@ RT_ALWAYS_INLINE DoublesMask torus_lanes_refine(const TorusLanes *torus, const L
     Doubles bend = torus->square - torus->major * (torus->across2 * torus->least2) / (rho2 * doubles_sqrt(rho2));
     Doubles turn = 2.0 * doubles_abs(bend) * size;
     Doubles most = 0x1p-64 * doubles_min(doubles_abs(t.hi) / line->step, doubles_splat(1.0)) * steep;
-    return place.is_told & (size < 0x1p-30) & (turn < 0x1p-10 * steep) & (turn * size < most) &
+    return place.is_certain & (size < 0x1p-30) & (turn < 0x1p-10 * steep) & (turn * size < most) &
            (place.slope_room * size < most);
 }
 

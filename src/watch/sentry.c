@@ -211,14 +211,6 @@ bool sentry_has_file(Sentry *sentry, const char *path)
     return is_there;
 }
 
-bool sentry_has_ended(Sentry *sentry)
-{
-    pthread_mutex_lock(&sentry->lock);
-    bool is_over = sentry->is_over;
-    pthread_mutex_unlock(&sentry->lock);
-    return is_over;
-}
-
 bool sentry_wait(Sentry *sentry)
 {
     pthread_mutex_lock(&sentry->lock);

@@ -60,7 +60,6 @@ bool sentry_has_file(Sentry *sentry, const char *path);
 // Nanoseconds by the wall's clock, as files have them.
 int64_t sentry_wall_clock(void);
 
-bool sentry_has_ended(Sentry *sentry);
 // Waits for the next save; false when it is over.
 bool sentry_wait(Sentry *sentry) RT_MUST_CHECK;
 

@@ -70,7 +70,7 @@ double count_certified(const SphereBlock *blocks, const Ray *ray, int *met, int 
     for (int i = 0; i < BLOCKS; i++) {
         BlockHits hits;
         if (block_test(&blocks[i], &sphere_ray, ~0u, nearest, &hits)) {
-            *doubtful += __builtin_popcount(hits.doubtful);
+            *doubtful += __builtin_popcount(hits.uncertain);
             for (; hits.met; hits.met &= hits.met - 1) {
                 nearest = fmin(nearest, hits.t[__builtin_ctz(hits.met)]);
                 ++*met;

@@ -40,12 +40,12 @@ static Symbol symbol(Bench *bench, const char *text)
 
 static AstNode *leaf(Bench *bench, AstKind kind, const char *text)
 {
-    return ast_node(&bench->builder, kind, AST_OP_NONE, symbol(bench, text), SPAN_NONE, NULL, NULL, NULL);
+    return ast_node(&bench->builder, (AstHead){kind, AST_OP_NONE, symbol(bench, text), SPAN_NONE}, NULL, NULL, NULL);
 }
 
 static AstNode *binary(Bench *bench, AstOp op, AstNode *left, AstNode *right)
 {
-    return ast_node(&bench->builder, AST_BINARY, op, SYMBOL_NONE, SPAN_NONE, left, right, NULL);
+    return ast_node(&bench->builder, (AstHead){AST_BINARY, op, SYMBOL_NONE, SPAN_NONE}, left, right, NULL);
 }
 
 static AstNode *number(Bench *bench, double value)
@@ -108,7 +108,7 @@ static void test_lists(void)
     tap_ok(list.first->flags == AST_AFTER_COMMA && (list.last->flags & AST_BEFORE_COMMA), "commas at both ends");
     tap_ok(ast_flag_last((AstList){0}, AST_BEFORE_COMMA).first == NULL, "no comma in an empty list");
     AstNode *block =
-        ast_node_list(&bench.builder, AST_BLOCK, AST_OP_NONE, W_sphere, SPAN_NONE, list, (AstList){0}, (AstList){0});
+        ast_node_list(&bench.builder, (AstHead){AST_BLOCK, AST_OP_NONE, W_sphere, SPAN_NONE}, list, (AstList){0}, (AstList){0});
     tap_ok(block->depth == 3 && block->count == 2 && block->a == list.first, "a node counts list a and the height");
 
     Arena other;
@@ -137,7 +137,7 @@ static void test_limits(void)
     bench_init(&bench, 3, 1 << 20);
     AstNode *tree = number(&bench, 1);
     for (int i = 0; i < 100; i++) {
-        tree = ast_node(&bench.builder, AST_UNARY, AST_OP_NEG, SYMBOL_NONE, SPAN_NONE, tree, NULL, NULL);
+        tree = ast_node(&bench.builder, (AstHead){AST_UNARY, AST_OP_NEG, SYMBOL_NONE, SPAN_NONE}, tree, NULL, NULL);
     }
     tap_ok(bench.builder.failed && tree != NULL && tree->depth <= 3, "too deep: the dummy");
     tap_ok(bench.diags.count == 1 && bench.diags.items[0].code == DIAG_E0601, "too deep: one E0601");
@@ -160,12 +160,12 @@ static void test_print(void)
     check_print(&bench, binary(&bench, AST_OP_MUL, binary(&bench, AST_OP_ADD, one, name), name), "(1 + A)*A\n");
     check_print(&bench, binary(&bench, AST_OP_SUB, one, binary(&bench, AST_OP_SUB, one, name)), "1 - (1 - A)\n");
     check_print(&bench, binary(&bench, AST_OP_LT, one, name), "(1 < A)\n");
-    check_print(&bench, ast_node(&bench.builder, AST_MEMBER, AST_OP_NONE, W_x, SPAN_NONE, one, NULL, NULL), "(1).x\n");
-    AstNode *negative = ast_node(&bench.builder, AST_UNARY, AST_OP_NEG, SYMBOL_NONE, SPAN_NONE, one, NULL, NULL);
+    check_print(&bench, ast_node(&bench.builder, (AstHead){AST_MEMBER, AST_OP_NONE, W_x, SPAN_NONE}, one, NULL, NULL), "(1).x\n");
+    AstNode *negative = ast_node(&bench.builder, (AstHead){AST_UNARY, AST_OP_NEG, SYMBOL_NONE, SPAN_NONE}, one, NULL, NULL);
     AstList items = ast_append(ast_append((AstList){0}, name), negative);
     check_print(
         &bench,
-        ast_node_list(&bench.builder, AST_BLOCK, AST_OP_NONE, W_box, SPAN_NONE, items, (AstList){0}, (AstList){0}),
+        ast_node_list(&bench.builder, (AstHead){AST_BLOCK, AST_OP_NONE, W_box, SPAN_NONE}, items, (AstList){0}, (AstList){0}),
         "box {\n  (A) (-1)\n}\n");
     tap_ok(strcmp(ast_kind_name(AST_IF), "#if") == 0 && strcmp(ast_op_spelling(AST_OP_NE), "!=") == 0, "names");
     bench_fini(&bench);

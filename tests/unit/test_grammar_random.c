@@ -64,12 +64,12 @@ static AstNode *make_if(Bench *bench, unsigned depth);
 
 static AstNode *make(Bench *bench, AstKind kind, AstOp op, Symbol symbol, AstNode *a, AstNode *b, AstNode *c)
 {
-    return ast_node(&bench->builder, kind, op, symbol, SPAN_NONE, a, b, c);
+    return ast_node(&bench->builder, (AstHead){kind, op, symbol, SPAN_NONE}, a, b, c);
 }
 
 static AstNode *make_list(Bench *bench, AstKind kind, AstOp op, Symbol symbol, AstList a, AstList b, AstList c)
 {
-    return ast_node_list(&bench->builder, kind, op, symbol, SPAN_NONE, a, b, c);
+    return ast_node_list(&bench->builder, (AstHead){kind, op, symbol, SPAN_NONE}, a, b, c);
 }
 
 static AstList one(AstNode *node)

@@ -208,9 +208,6 @@ static void check_points(void)
     tap_ok(!mesh_holds(mesh, vec3(0.0, -1.1, 0.0)) && !mesh_holds(mesh, vec3(2.0, 0.0, 0.0)), "points outside");
     mesh->has_inside = false;
     tap_ok(!mesh_holds(mesh, vec3(0.0, 0.0, 0.0)), "without an inside nothing is");
-    tap_ok(mesh_is_valid(mesh), "it is valid");
-    mesh->faces[3][1] = mesh->vertex_count;
-    tap_ok(!mesh_is_valid(mesh), "an index out of range is not");
     mesh_free(mesh);
 }
 

@@ -46,7 +46,7 @@ typedef struct Shadows {
 static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces *from, Vec3 light, double aside,
                         double near, uint64_t asked, Random *random, Shadows *found)
 {
-    SurfaceRays rays = {.end = light, .aside = aside};
+    SurfaceRays rays = {.end = light, .end_radius = aside};
     for (int i = 0; i < from->count; i++) {
         double away = random_between(random, 0, aside);
         Vec3 end = vec3_add_scaled(light, away, random_direction(random));

@@ -238,7 +238,7 @@ static bool surface_differs(const Geometry *g, Ray ray, const TileHits *hits, co
 static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces *from, Vec3 light, double aside,
                         uint64_t asked, Random *random, Found *found)
 {
-    SurfaceRays rays = {.end = light, .aside = aside};
+    SurfaceRays rays = {.end = light, .end_radius = aside};
     asked &= ~UINT64_C(0) >> (TILE_RAYS - from->count);
     for (int i = 0; i < from->count; i++) {
         Vec3 way = random_direction(random);

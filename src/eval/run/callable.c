@@ -61,7 +61,8 @@ bool call_fault_count(Eval *ev, const AstNode *call, const char *what, unsigned 
                       (unsigned)call->count, call->count == 1 ? "is" : "are");
 }
 
-bool function_fault_unsupported(Eval *ev, const Function *function, const AstNode *call)
+// Reports the use of a function that is not supported; returns false.
+static bool function_fault_unsupported(Eval *ev, const Function *function, const AstNode *call)
 {
     if (eval_report(ev, DIAG_E0210, call->span, "%s%s%s is a function of `%s`, which is not supported",
                     QUOTE(call), name_of(ev, call), QUOTE(call), function->word)) {

@@ -39,7 +39,4 @@ bool call_ends_well(Eval *ev, const AstNode *call) RT_MUST_CHECK;
 // Reports a wrong number of arguments; returns false.
 bool call_fault_count(Eval *ev, const AstNode *call, const char *what, unsigned wanted);
 
-// Reports the use of a function that is not supported; returns false.
-bool function_fault_unsupported(Eval *ev, const Function *function, const AstNode *call);
-
 #endif

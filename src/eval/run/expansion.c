@@ -147,7 +147,7 @@ unsigned expansion_own_place(const Expansion *expansion)
     return expansion->feed.live != NULL && is_kept(expansion, frame) ? 1 : frame->text.place;
 }
 
-size_t expansion_open_directives(const Expansion *expansion)
+static size_t expansion_open_directives(const Expansion *expansion)
 {
     size_t count = 0;
     for (const CursorFrame *frame = top(expansion); frame != expansion->bottom; frame = frame->outer) {

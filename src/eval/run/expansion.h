@@ -67,7 +67,6 @@ static inline bool frame_has_text(const CursorFrame *frame)
 // The frame that a `#else`, `#end` or the like belongs to: the innermost one, but for files, which may hold part of a
 // directive; NULL: there is none.
 CursorFrame *expansion_owner_of_middle(const Expansion *expansion);
-size_t expansion_open_directives(const Expansion *expansion);
 // The place of the innermost text; what is read again continues in the live one.
 unsigned expansion_own_place(const Expansion *expansion);
 

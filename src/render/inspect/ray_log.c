@@ -258,26 +258,24 @@ static void follow_light(Follower *follower, const ShadeMaterial *material, cons
 {
     const ShadingPoint *at = follower->at;
     RenderStatistics unused = {0};
-    Vec3 offset = vec3_sub(light->position, at->point);
-    double distance = light->parallel ? vec3_dot(offset, light->towards) : vec3_length(offset);
-    Vec3 towards = light->parallel ? light->towards : vec3_scale(1.0 / distance, offset);
+    LightAim aim = light_aim(light, at->point, at->normal);
     LoggedLight out = {
         .number = light->number,
         .position = in_scene(follower, light->position),
-        .distance = distance * follower->scale,
-        .cosine = vec3_dot(at->normal, towards),
-        .sends = light->is_plain ? light->colour : rgb_scale(light_strength(light, offset, distance), light->colour),
+        .distance = aim.distance * follower->scale,
+        .cosine = aim.cosine,
+        .sends = light->is_plain ? light->colour
+                                 : rgb_scale(light_strength(light, aim.offset, aim.distance), light->colour),
         .visible = rgb_grey(1.0),
         .diffuse = light_of(follower, material, light, true),
         .highlights = light_of(follower, material, light, false),
         .adds = shade_light(follower->p, FEATURES, material, light, at, &unused),
     };
-    if (!light->shadowless && distance > 0.0) {
+    if (!light->shadowless && aim.distance > 0.0) {
         uint32_t blocker = NO_BLOCKER;
+        const ShadeWay way = shade_way(light, &aim);
         out.visible = light->area.size1 > 0 ? shade_area(follower->p, FEATURES, at, light, out.sends, &unused)
-                                            : shade_visibility(follower->p, FEATURES, at,
-                                                               light->parallel ? NULL : &light->position, towards,
-                                                               distance, &blocker, &unused);
+                                            : shade_visibility(follower->p, FEATURES, at, &way, &blocker, &unused);
     }
     follower->failed |= !ARRAY_PUSH(&follower->ray_log->lights, out);
 }

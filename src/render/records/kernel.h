@@ -47,13 +47,20 @@ typedef struct KernelPlaces {
 // What a thread works in (render/sample/scratch.h).
 typedef struct RenderScratch RenderScratch;
 
+// KERNEL_RAYS camera rays, of which those are wanted whose bit is set; the others have places, too.
+typedef struct KernelCall {
+    const KernelPlaces *places;
+    uint64_t wanted;
+    SampleStream *streams; // what each draws numbers from; NULL: then area lights are the scene's grids
+    Rgb *light;            // of each ray that is wanted
+    RenderScratch *scratch;
+    RenderStatistics *statistics; // counts are added
+} KernelCall;
+
 typedef struct Kernel {
     const char *name;
     unsigned features;
-    // The light of those of KERNEL_RAYS camera rays whose bit is set in `wanted`; the others have places, too.
-    // `streams` are what each draws numbers from, or NULL: then area lights are the scene's grids. Counts are added.
-    void (*trace)(const Prepared *prepared, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                  Rgb *light, RenderScratch *scratch, RenderStatistics *statistics);
+    void (*trace)(const Prepared *prepared, const KernelCall *call);
 } Kernel;
 
 #endif

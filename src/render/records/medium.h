@@ -107,17 +107,19 @@ static inline double medium_ior(const Interior *interiors, const MediumTable *ta
     return interior == RECORD_NONE ? 1.0 : interiors[interior].ior;
 }
 
-// The indices of refraction before and behind a surface as Fresnel's share has them. Of several shapes that a ray is in,
-// the one that it leaves counts as what is before. Measured.
-static inline void medium_fresnel_sides(const Interior *interiors, const MediumTable *table, MediumStack before,
-                                        MediumStack behind, uint32_t interior, bool leaves, double *ior_before,
-                                        double *ior_behind)
+// Indices of refraction before and behind a surface as Fresnel's share has them.
+typedef struct FresnelSides {
+    double before, behind;
+} FresnelSides;
+
+// Of several shapes that a ray is in, the one that it leaves counts as what is before. Measured.
+static inline FresnelSides medium_fresnel_sides(const Interior *interiors, const MediumTable *table, MediumStack before,
+                                                MediumStack behind, uint32_t interior, bool leaves)
 {
     double medium = medium_ior(interiors, table, before);
     double own = interior == RECORD_NONE ? 1.0 : interiors[interior].ior;
     bool is_nested = leaves && table->nodes[before].depth > 1;
-    *ior_before = is_nested ? own : medium;
-    *ior_behind = is_nested ? medium : medium_ior(interiors, table, behind);
+    return (FresnelSides){is_nested ? own : medium, is_nested ? medium : medium_ior(interiors, table, behind)};
 }
 
 #endif

@@ -137,35 +137,29 @@ bool study_covers(const Prepared *p, DiagSink *diags)
 
 // ---- pictures
 
-static void trace_wanted(const Prepared *p, StudyPrecision precision, const KernelPlaces *places, uint64_t wanted,
-                         Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
+// Nothing that is covered draws numbers.
+static void trace_wanted(const Prepared *p, StudyPrecision precision, const KernelCall *call)
 {
-    for (; wanted; wanted &= wanted - 1) {
-        int i = __builtin_ctzll(wanted);
-        light[i] = colours[precision](p, places->u[i], places->v[i], scratch, statistics);
+    const KernelPlaces *places = call->places;
+    for (uint64_t left = call->wanted; left; left &= left - 1) {
+        int i = __builtin_ctzll(left);
+        call->light[i] = colours[precision](p, places->u[i], places->v[i], call->scratch, call->statistics);
     }
 }
 
-// Nothing that is covered draws numbers.
-static void trace_float(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                        Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
+static void trace_float(const Prepared *p, const KernelCall *call)
 {
-    (void)streams;
-    trace_wanted(p, STUDY_FLOAT, places, wanted, light, scratch, statistics);
+    trace_wanted(p, STUDY_FLOAT, call);
 }
 
-static void trace_double(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                         Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
+static void trace_double(const Prepared *p, const KernelCall *call)
 {
-    (void)streams;
-    trace_wanted(p, STUDY_DOUBLE, places, wanted, light, scratch, statistics);
+    trace_wanted(p, STUDY_DOUBLE, call);
 }
 
-static void trace_quad(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                       Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
+static void trace_quad(const Prepared *p, const KernelCall *call)
 {
-    (void)streams;
-    trace_wanted(p, STUDY_QUAD, places, wanted, light, scratch, statistics);
+    trace_wanted(p, STUDY_QUAD, call);
 }
 
 void study_take(Prepared *prepared, StudyPrecision precision)

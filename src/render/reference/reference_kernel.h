@@ -150,32 +150,44 @@ static Real real_opaque(const RealScene *s, Rgbft pigment)
     return 1 - filtered - (Real)pigment.transmit;
 }
 
-// `normal` is turned to where the ray comes from.
-static RealRgb real_light(const RealScene *s, const PreparedLight *light, const PreparedFinish *finish, Rgbft pigment,
-                          const RealHit *at, MediumStack before, RealVec normal, RealVec direction,
+// What one hit is to lights and to the rays that continue.
+typedef struct RealJunction {
+    RealHit at;
+    RealVec normal; // turned to where the ray comes from
+    const PreparedFinish *finish;
+    Rgbft pigment;
+    RealRgb reflectance;
+    Real ior_ratio, fresnel_ratio;
+    RealVec direction; // of the ray that found it
+    MediumStack before, behind;
+    bool leaves; // what the ray is in
+} RealJunction;
+
+static RealRgb real_light(const RealScene *s, const PreparedLight *light, const RealJunction *j,
                           RenderStatistics *statistics)
 {
-    RealVec offset = real_sub(real_vec(light->position), at->point);
+    const PreparedFinish *finish = j->finish;
+    RealVec offset = real_sub(real_vec(light->position), j->at.point);
     Real distance = light->parallel ? real_dot(offset, real_vec(light->towards)) : real_length(offset);
     RealVec towards = light->parallel ? real_vec(light->towards) : real_scale(1 / distance, offset);
-    Real cosine = real_dot(normal, towards);
+    Real cosine = real_dot(j->normal, towards);
     bool front = cosine > 0, back = cosine < 0 && finish->diffuse_back > 0.0;
-    RealRgb arriving = real_rgb(light->colour), colour = real_rgb(rgbft_rgb(pigment));
+    RealRgb arriving = real_rgb(light->colour), colour = real_rgb(rgbft_rgb(j->pigment));
     if (!front && !back) {
         return real_grey(0);
     }
     if (!light->shadowless && distance > 0) {
-        RealRgb share = real_visibility(s, at, before, towards, distance, statistics);
+        RealRgb share = real_visibility(s, &j->at, j->before, towards, distance, statistics);
         if (real_rgb_is_black(share)) {
             return share;
         }
         arriving = real_rgb_mul(arriving, share);
     }
-    Real opaque = real_opaque(s, pigment);
+    Real opaque = real_opaque(s, j->pigment);
     Real falloff = real_power(REAL_FABS(cosine), finish->brilliance);
     RealRgb sum = real_rgb_scale(falloff * (Real)(back ? finish->diffuse_back : finish->diffuse) * opaque, colour);
     if (finish->shines && front && !light->shadowless) {
-        Real shine = real_highlights(finish, direction, normal, towards);
+        Real shine = real_highlights(finish, j->direction, j->normal, towards);
         RealRgb tint = finish->metallic > 0.0 ? real_metallic(finish->metallic, colour, cosine) : real_grey(1);
         sum = real_rgb_add(sum, shine, tint);
     }
@@ -225,18 +237,6 @@ static RealVec real_mirrored(RealVec direction, RealVec normal)
 {
     return real_unit(real_add_scaled(direction, -2 * real_dot(direction, normal), normal));
 }
-
-// What one hit is to the rays that continue.
-typedef struct RealJunction {
-    RealHit at;
-    RealVec normal; // turned to where the ray comes from
-    const PreparedFinish *finish;
-    Rgbft pigment;
-    RealRgb reflectance;
-    Real ior_ratio, fresnel_ratio;
-    MediumStack behind;
-    bool leaves; // what the ray is in
-} RealJunction;
 
 // A ray that is followed through all that it goes through. Where it is mirrored, the next level is that of the mirrored
 // ray, whose light is added before this one continues.
@@ -330,14 +330,14 @@ static void real_join(const RealScene *s, const RealWay *way, MediumStack inside
 {
     j->normal = real_scale(j->at.inside ? -1 : 1, j->at.normal);
     j->pigment = study_pigment(s->p, j->at.material, &j->finish);
-    j->behind = inside;
+    j->direction = way->ray.d;
+    j->before = j->behind = inside;
     j->leaves = real_cross(s, &j->at, &j->behind);
     j->ior_ratio = (Real)medium_ior(s->p->interiors, s->media, j->behind) /
                    (Real)medium_ior(s->p->interiors, s->media, inside);
-    double ior_before, ior_behind;
-    medium_fresnel_sides(s->p->interiors, s->media, inside, j->behind, study_interior(s->p, j->at.material), j->leaves,
-                         &ior_before, &ior_behind);
-    j->fresnel_ratio = (Real)ior_behind / (Real)ior_before;
+    FresnelSides sides = medium_fresnel_sides(s->p->interiors, s->media, inside, j->behind,
+                                              study_interior(s->p, j->at.material), j->leaves);
+    j->fresnel_ratio = (Real)sides.behind / (Real)sides.before;
     j->reflectance = real_grey(0);
     if (j->finish->reflects) {
         j->reflectance = real_reflectance(j->finish, real_rgb(rgbft_rgb(j->pigment)), -real_dot(j->normal, way->ray.d),
@@ -362,8 +362,7 @@ static bool real_step(const RealScene *s, RealLevel *now, RealLevel *mirrored, R
     Real opaque = real_opaque(s, j.pigment);
     RealRgb light = real_rgb_scale(opaque, real_rgb_mul(real_rgb(rgbft_rgb(j.pigment)), real_rgb(j.finish->glow)));
     for (size_t i = 0; i < s->p->light_count; i++) {
-        RealRgb one = real_light(s, &s->p->lights[i], j.finish, j.pigment, &j.at, now->inside, j.normal, way->ray.d,
-                                 statistics);
+        RealRgb one = real_light(s, &s->p->lights[i], &j, statistics);
         light = real_rgb_add(light, 1, one);
     }
     now->sum = real_rgb_add(now->sum, 1, real_rgb_mul(way->share, light));

@@ -84,18 +84,17 @@ static Behind follow(const Prepared *dark, Ray ray, RenderScratch *scratch)
     return behind;
 }
 
-void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, Rgb *light, double *clear,
-                RenderScratch *scratch)
+void alpha_part(const Prepared *p, const KernelCall *call, double *clear)
 {
     Prepared dark = *p;
     dark.light_count = 0;
     dark.has_dome = false;
-    for (; wanted; wanted &= wanted - 1) {
-        int i = __builtin_ctzll(wanted);
+    for (uint64_t left = call->wanted; left; left &= left - 1) {
+        int i = __builtin_ctzll(left);
         Ray ray;
-        bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
-        Behind behind = is_seen ? follow(&dark, ray, scratch) : (Behind){rgb_grey(0.0), 1.0};
-        light[i] = rgb_add_scaled(light[i], -1.0, behind.light);
+        bool is_seen = camera_place_ray(&p->camera, call->places, i, &ray);
+        Behind behind = is_seen ? follow(&dark, ray, call->scratch) : (Behind){rgb_grey(0.0), 1.0};
+        call->light[i] = rgb_add_scaled(call->light[i], -1.0, behind.light);
         clear[i] = fmin(fmax(behind.clear, 0.0), 1.0);
     }
 }

@@ -13,17 +13,15 @@
 #include "render/records/prepared.h"
 
 // Takes from the light of rays, as the kernel traced them, what is behind the scene, and sets its shares, from 0 to 1.
-void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, Rgb *light, double *clear,
-                RenderScratch *scratch);
+void alpha_part(const Prepared *p, const KernelCall *call, double *clear);
 
 // Traces by the scene's kernel; with has_alpha the light is what is not behind the scene, and `clear`, of KERNEL_RAYS
 // numbers, tells the share that is; else those are left as they are.
-static inline void alpha_trace(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                               Rgb *light, double *clear, RenderScratch *scratch, RenderStatistics *statistics)
+static inline void alpha_trace(const Prepared *p, const KernelCall *call, double *clear)
 {
-    p->kernel->trace(p, places, streams, wanted, light, scratch, statistics);
+    p->kernel->trace(p, call);
     if (p->has_alpha) {
-        alpha_part(p, places, wanted, light, clear, scratch);
+        alpha_part(p, call, clear);
     }
 }
 

@@ -54,8 +54,8 @@ static void batch_flush(Batch *batch)
         batch->places.u[i] = batch->places.u[batch->count - 1];
         batch->places.v[i] = batch->places.v[batch->count - 1];
     }
-    alpha_trace(batch->prepared, &batch->places, NULL, wanted, light, clear, batch->scratch,
-                batch->counted);
+    const KernelCall call = {&batch->places, wanted, NULL, light, batch->scratch, batch->counted};
+    alpha_trace(batch->prepared, &call, clear);
     for (int i = 0; i < batch->count; i++) {
         *batch->targets[i] = seen_add_scaled(*batch->targets[i], 1.0, (Seen){light[i], clear[i]});
     }

@@ -55,30 +55,30 @@ static bool run_alike(Sampling *s, uint32_t all)
 }
 
 // One ray through each corner, and some pixels that tell what that is worth. False when it was cancelled.
-static bool run_pilot(Sampling *s)
+static bool run_corner_pass(Sampling *s)
 {
     Round *round = &s->round;
     round->corners = s->corners;
     round->count = 1;
-    round->has_corners = round->is_corners = round->is_pilot = true;
+    round->has_corners = round->is_corners = round->is_corner_pass = true;
     s->round_samples = s->estimate.corners = (s->film->width + 1.0) * (s->film->height + 1.0);
     goal_predict(s);
     if (!sampling_trace(s)) {
         return false;
     }
     s->cost.sample = s->sample_seconds;
-    uint32_t probes = pilot_sort(round, s->allocation.of_pixel, s->allocation.memory);
+    uint32_t probes = corner_pass_sort(round, s->allocation.of_pixel, s->allocation.memory);
     round->is_corners = false;
     round->count = 0;
     round->buckets = s->allocation.of_pixel;
-    round->least_bucket = PILOT_PROBE;
+    round->least_bucket = CORNER_PASS_PROBE;
     s->round_samples = START_SAMPLES * (double)probes;
     if (!sampling_trace(s)) {
         return false;
     }
-    round->is_pilot = false;
+    round->is_corner_pass = false;
     s->cost.pixel = START_SAMPLES * fmax(s->sample_seconds - s->cost.sample, 0.0);
-    pilot_judge(&s->estimate, s->film, s->allocation.of_pixel);
+    corner_pass_judge(&s->estimate, s->film, s->allocation.of_pixel);
     if (s->predictor) {
         predictor_keep_sorts(s->predictor, s->allocation.of_pixel, (size_t)pixel_count(s));
     }
@@ -118,7 +118,7 @@ static void run_adaptive(Sampling *s)
 }
 
 // A goal is reached or not by what all pixels say.
-static bool judges_some(const SamplingOptions *wanted, const Film *film)
+static bool counts_some(const SamplingOptions *wanted, const Film *film)
 {
     return wanted->no_pixel_errors && !wanted->is_adaptive && !stop_has_choice(wanted) &&
            (double)film->whole_width * film->whole_height >= PIXELS_MANY;
@@ -151,7 +151,7 @@ static void sampling_free(Sampling *s)
 static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, Film *film)
 {
     size_t width = (size_t)film->width, height = (size_t)film->height;
-    bool has_pilot = wanted->is_adaptive && wanted->filter == FILTER_BOX;
+    bool has_corner_pass = wanted->is_adaptive && wanted->filter == FILTER_BOX;
     bool predicts = wanted->is_adaptive && wanted->target_error > 0.0 && has_progress;
     Sampling *s = calloc(1, sizeof *s);
     film->records = calloc(width * height, sizeof *film->records);
@@ -161,14 +161,14 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
             calloc(round_blocks(film->width) * round_blocks(film->height), sizeof *s->allocation.of_block);
         s->allocation.memory = calloc(width, ALLOCATION_ROWS * sizeof *s->allocation.memory);
     }
-    if (s && has_pilot) {
+    if (s && has_corner_pass) {
         s->corners = calloc((width + 1) * (height + 1), 3 * sizeof *s->corners);
     }
     if (s && predicts) {
         s->predictor = predictor_new(width * height);
     }
     bool is_whole =
-        s && film->records && (!has_pilot || s->corners) && (!predicts || s->predictor) &&
+        s && film->records && (!has_corner_pass || s->corners) && (!predicts || s->predictor) &&
         (!wanted->is_adaptive || (s->allocation.of_pixel && s->allocation.of_block && s->allocation.memory));
     if (!is_whole) {
         sampling_free(s);
@@ -205,7 +205,7 @@ static void run_rounds(Sampling *s)
     if (!wanted->is_adaptive) {
         return;
     }
-    if (s->corners ? run_pilot(s) : sampling_look(s)) {
+    if (s->corners ? run_corner_pass(s) : sampling_look(s)) {
         run_adaptive(s);
     } else {
         s->error->end = SAMPLING_INTERRUPTED;
@@ -255,7 +255,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     s->round.sampling = wanted;
     s->round.film = film;
     s->round.draws_more = draws_more(prepared);
-    s->round.judges_some = judges_some(wanted, film);
+    s->round.counts_some = counts_some(wanted, film);
     estimate_begin(&s->estimate, &s->round);
     filter_init(&s->round.filter, wanted->filter);
     run_rounds(s);

@@ -40,18 +40,18 @@ typedef struct Round {
     bool has_corners; // a pixel with one sample has the mean of its corners: what continues from there starts anew
     bool draws_more;         // than the place in the pixel: for area lights or a lens
     bool is_corners;         // these rays
-    bool is_pilot;           // pixels that start are to say how good their corners were
-    bool judges_some;        // the error is taken from those of one block in JUDGED_SHARE, chosen by chance
+    bool is_corner_pass;           // pixels that start are to say how good their corners were
+    bool counts_some;        // the error is taken from those of one block in JUDGED_SHARE, chosen by chance
 } Round;
 
 enum { JUDGED_SHARE = 8, JUDGED_BLOCK = KERNEL_ROW };
 
 // Whether a pixel tells of the error. Blocks are those of the whole picture.
-static inline bool round_judges(const Round *round, int left, int top)
+static inline bool round_counts_for_error(const Round *round, int left, int top)
 {
     uint32_t x = (uint32_t)(round->film->left + left) / JUDGED_BLOCK,
              y = (uint32_t)(round->film->top + top) / JUDGED_BLOCK;
-    return !round->judges_some ||
+    return !round->counts_some ||
            sample_hash_add((uint32_t)round->sampling->seed, y << 16 ^ x) % JUDGED_SHARE == 0;
 }
 
@@ -106,9 +106,6 @@ static inline size_t round_blocks(int pixels)
 {
     return ((size_t)pixels + KERNEL_ROW - 1) / KERNEL_ROW;
 }
-
-// The samples that a pixel gets in a round.
-uint32_t round_samples(const Round *round, size_t pixel);
 
 // A pixel that takes part.
 typedef struct ChosenPixel {
@@ -166,7 +163,7 @@ void stop_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSta
 
 // ---- sampling_estimate.c: figures
 
-enum { LEVELS = 33, PILOT_SORTS = 32 };
+enum { LEVELS = 33, CORNER_PASS_SORTS = 32 };
 
 // Sums over pixels that have between 2^level and 2^(level+1) - 1 samples.
 typedef struct LevelSums {
@@ -184,7 +181,7 @@ typedef struct Estimate {
     double corners; // rays through them, which are in no pixel's count
     // Of pixels that have their corners only, by sort: what each is taken to be off by, squared, the sum of these, and
     // its relative variance.
-    double sort_mean[PILOT_SORTS], sort_sum[PILOT_SORTS], sort_variance[PILOT_SORTS];
+    double sort_mean[CORNER_PASS_SORTS], sort_sum[CORNER_PASS_SORTS], sort_variance[CORNER_PASS_SORTS];
 } Estimate;
 
 // Before the first round: which pixels tell of the error.
@@ -313,15 +310,15 @@ void near_take(Near *near, int y);
 // ---- sampling_corners.c: what one ray a pixel is worth
 
 // Makes pixels from their corners, and sorts them by how much these differ from what those around let expect.
-// Of each square of pixels one is chosen by chance: those have buckets from PILOT_PROBE on, the others below. So have
-// those that hold small shapes, with PILOT_SMALL; they tell nothing of others.
-enum { PILOT_PROBE = 0x8000, PILOT_SMALL = 0x4000 };
-// Returns the number of those from PILOT_PROBE on.
-uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory);
+// Of each square of pixels one is chosen by chance: those have buckets from CORNER_PASS_PROBE on, the others below. So have
+// those that hold small shapes, with CORNER_PASS_SMALL; they tell nothing of others.
+enum { CORNER_PASS_PROBE = 0x8000, CORNER_PASS_SMALL = 0x4000 };
+// Returns the number of those from CORNER_PASS_PROBE on.
+uint32_t corner_pass_sort(const Round *round, uint16_t *buckets, double *memory);
 
 // When the chosen ones have started: what they differ from their corners by is taken for what those of their sort are
 // off by.
-void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
+void corner_pass_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
 
 // ---- sampling_allocation.c: where the next samples go
 
@@ -367,7 +364,7 @@ typedef struct Predictor Predictor;
 Predictor *predictor_new(size_t pixels);
 void predictor_free(Predictor *predictor);
 
-// After pilot_judge: keeps the sorts of all pixels.
+// After corner_pass_judge: keeps the sorts of all pixels.
 void predictor_keep_sorts(Predictor *predictor, const uint16_t *buckets, size_t pixels);
 
 // When the first round after that is chosen: what pixels become that start.

@@ -269,7 +269,7 @@ static void each_block(Draw *draw, void (*block)(Draw *draw, Tile block))
         bottom = round_block_end(top, film->top, film->height);
         for (int left = 0, right; left < film->width; left = right) {
             right = round_block_end(left, film->left, film->width);
-            if (round_judges(draw->round, left, top)) {
+            if (round_counts_for_error(draw->round, left, top)) {
                 block(draw, (Tile){left, top, right, bottom});
             }
         }
@@ -280,7 +280,7 @@ static void each_block(Draw *draw, void (*block)(Draw *draw, Tile block))
 static double blocks_variance(const Draw *draw)
 {
     double mean = draw->sum / draw->blocks;
-    if (!draw->round->judges_some || draw->blocks < 2.0) {
+    if (!draw->round->counts_some || draw->blocks < 2.0) {
         return 0.0;
     }
     double spread = (draw->squares / draw->blocks - mean * mean) / (draw->blocks - 1.0);

@@ -21,9 +21,9 @@ void batch_init(Batch *batch, const Round *round, RenderScratch *scratch)
 
 void batch_trace(const Round *round, Batch *batch, uint64_t wanted, RenderStatistics *counted)
 {
-    const Prepared *p = round->prepared;
-    alpha_trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, batch->clear,
-                batch->scratch, counted);
+    const KernelCall call = {&batch->places, wanted, batch->draws ? batch->streams : NULL, batch->light, batch->scratch,
+                             counted};
+    alpha_trace(round->prepared, &call, batch->clear);
 }
 
 static void run_add(const Round *round, const Batch *batch, const Run *run, int begin)

@@ -88,7 +88,7 @@ static inline uint16_t sort_of(float square)
         uint32_t bits;
     } number = {.value = square};
     int sort = ((int)(number.bits >> 23) - 127) / 2 + SORT_MIDDLE;
-    return (uint16_t)(sort < 0 ? 0 : sort >= PILOT_SORTS ? PILOT_SORTS - 1 : sort);
+    return (uint16_t)(sort < 0 ? 0 : sort >= CORNER_PASS_SORTS ? CORNER_PASS_SORTS - 1 : sort);
 }
 
 // Marks them, and counts them.
@@ -101,7 +101,7 @@ static uint32_t probes_choose(const Film *film, uint64_t seed, uint16_t *buckets
             uint32_t chosen = sampler_pixel_seed(~seed, (uint32_t)(film->left + left), (uint32_t)(film->top + top));
             int x = left + (int)(chosen % PROBE_SQUARE), y = top + (int)(chosen / PROBE_SQUARE % PROBE_SQUARE);
             if (x >= 0 && x < film->width && y >= 0 && y < film->height) {
-                buckets[(size_t)y * (size_t)film->width + (size_t)x] |= PILOT_PROBE;
+                buckets[(size_t)y * (size_t)film->width + (size_t)x] |= CORNER_PASS_PROBE;
                 count++;
             }
         }
@@ -114,13 +114,13 @@ static uint32_t probes_choose(const Film *film, uint64_t seed, uint16_t *buckets
 // within each, as far as the pixels chosen so far are not doubled. Marks them, and counts them.
 static uint32_t sorts_fill(const Film *film, uint64_t seed, uint16_t *buckets, uint32_t chosen)
 {
-    double pixels[PILOT_SORTS] = {0.0}, probes[PILOT_SORTS] = {0.0}, part[PILOT_SORTS], left = chosen;
+    double pixels[CORNER_PASS_SORTS] = {0.0}, probes[CORNER_PASS_SORTS] = {0.0}, part[CORNER_PASS_SORTS], left = chosen;
     size_t count = (size_t)film->width * (size_t)film->height;
     for (size_t i = 0; i < count; i++) {
-        pixels[buckets[i] & ~PILOT_PROBE]++;
-        probes[buckets[i] & ~PILOT_PROBE] += (buckets[i] & PILOT_PROBE) != 0;
+        pixels[buckets[i] & ~CORNER_PASS_PROBE]++;
+        probes[buckets[i] & ~CORNER_PASS_PROBE] += (buckets[i] & CORNER_PASS_PROBE) != 0;
     }
-    for (int sort = PILOT_SORTS - 1; sort >= 0; sort--) {
+    for (int sort = CORNER_PASS_SORTS - 1; sort >= 0; sort--) {
         double others = pixels[sort] - probes[sort];
         double more = fmin(fmin(fmax(PROBES_LEAST - probes[sort], 0.0), others), left);
         part[sort] = others > 0.0 ? more / others : 0.0;
@@ -130,9 +130,9 @@ static uint32_t sorts_fill(const Film *film, uint64_t seed, uint16_t *buckets, u
     for (size_t i = 0; i < count; i++) {
         uint32_t x = (uint32_t)(film->left + (int)(i % (size_t)film->width)),
                  y = (uint32_t)(film->top + (int)(i / (size_t)film->width));
-        if (!(buckets[i] & PILOT_PROBE) && part[buckets[i]] > 0.0 &&
-            sample_unit(sample_hash_add(sampler_pixel_seed(~seed, x, y), PILOT_PROBE)) < part[buckets[i]]) {
-            buckets[i] |= PILOT_PROBE;
+        if (!(buckets[i] & CORNER_PASS_PROBE) && part[buckets[i]] > 0.0 &&
+            sample_unit(sample_hash_add(sampler_pixel_seed(~seed, x, y), CORNER_PASS_PROBE)) < part[buckets[i]]) {
+            buckets[i] |= CORNER_PASS_PROBE;
             added++;
         }
     }
@@ -146,14 +146,14 @@ static uint32_t small_choose(const Round *round, uint16_t *buckets)
     uint32_t count = 0;
     for (size_t i = 0; round->small && i < pixels; i++) {
         if (small_has(round->small, i)) {
-            count += !(buckets[i] & PILOT_PROBE);
-            buckets[i] |= PILOT_PROBE | PILOT_SMALL;
+            count += !(buckets[i] & CORNER_PASS_PROBE);
+            buckets[i] |= CORNER_PASS_PROBE | CORNER_PASS_SMALL;
         }
     }
     return count;
 }
 
-uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory)
+uint32_t corner_pass_sort(const Round *round, uint16_t *buckets, double *memory)
 {
     const double of_near = 1.0 / 64.0;
     const Film *film = round->film;
@@ -196,25 +196,25 @@ static void sort_add(Sort *sort, const Sort *more)
     sort->squares += more->squares;
 }
 
-static void sorts_gather(const Film *film, const uint16_t *buckets, Sort sorts[PILOT_SORTS])
+static void sorts_gather(const Film *film, const uint16_t *buckets, Sort sorts[CORNER_PASS_SORTS])
 {
     const double own = 1.0 / 7.0; // of `outer`: RATIO_MOST less one
     size_t pixels = (size_t)film->width * (size_t)film->height;
     for (size_t i = 0; i < pixels; i++) {
-        if ((buckets[i] & PILOT_PROBE) && !(buckets[i] & PILOT_SMALL)) {
+        if ((buckets[i] & CORNER_PASS_PROBE) && !(buckets[i] & CORNER_PASS_SMALL)) {
             const PixelRecord *record = &film->records[i];
             double off = record->fresh - own * record->outer;
-            sort_add(&sorts[buckets[i] & ~PILOT_PROBE], &(Sort){1.0, off, off * off});
+            sort_add(&sorts[buckets[i] & ~CORNER_PASS_PROBE], &(Sort){1.0, off, off * off});
         }
     }
 }
 
 // Sorts of few probes go with their neighbours, from the most uneven down; before a sort of many probes, which may have
 // most of the pixels, they go with those above, and do not spoil it.
-static void sorts_judge(const Sort sorts[PILOT_SORTS], double mean[PILOT_SORTS], double variance[PILOT_SORTS])
+static void sorts_judge(const Sort sorts[CORNER_PASS_SORTS], double mean[CORNER_PASS_SORTS], double variance[CORNER_PASS_SORTS])
 {
     Sort last = {0.0, 0.0, 0.0};
-    for (int end = PILOT_SORTS; end > 0;) {
+    for (int end = CORNER_PASS_SORTS; end > 0;) {
         Sort sum = sorts[end - 1];
         int begin = end - 1;
         while (begin > 0 && sum.count < PROBES_LEAST && sorts[begin - 1].count < PROBES_LEAST) {
@@ -234,17 +234,17 @@ static void sorts_judge(const Sort sorts[PILOT_SORTS], double mean[PILOT_SORTS],
     }
 }
 
-void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets)
+void corner_pass_judge(Estimate *estimate, Film *film, const uint16_t *buckets)
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
-    Sort sorts[PILOT_SORTS] = {{0.0, 0.0, 0.0}};
+    Sort sorts[CORNER_PASS_SORTS] = {{0.0, 0.0, 0.0}};
     double *mean = estimate->sort_mean;
     LevelSums *started = &estimate->levels[estimate_level(START_SAMPLES)];
     sorts_gather(film, buckets, sorts);
     sorts_judge(sorts, mean, estimate->sort_variance);
     for (size_t i = 0; i < pixels; i++) {
         PixelRecord *record = &film->records[i];
-        if (buckets[i] & PILOT_PROBE) {
+        if (buckets[i] & CORNER_PASS_PROBE) {
             started->outer += record->outer;
             started->inner += record->inner;
             started->squares += (double)record->outer * record->outer;

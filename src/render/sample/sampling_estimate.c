@@ -66,10 +66,10 @@ static void now_clear(Estimate *estimate)
 }
 
 // What so many pixels of each sort that have their corners only bring: all of a sort the same.
-static void add_corners(Estimate *estimate, const uint32_t counts[PILOT_SORTS])
+static void add_corners(Estimate *estimate, const uint32_t counts[CORNER_PASS_SORTS])
 {
     LevelSums *sums = &estimate->levels[0];
-    for (int sort = 0; sort < PILOT_SORTS; sort++) {
+    for (int sort = 0; sort < CORNER_PASS_SORTS; sort++) {
         double mean = estimate->sort_mean[sort], sum = counts[sort] * mean;
         estimate->sort_sum[sort] = sum;
         sums->outer_now += sum;
@@ -84,7 +84,7 @@ static void add_now(Estimate *estimate, const Film *film, const Round *round, bo
     size_t pixels = (size_t)film->width * (size_t)film->height;
     const PixelRecord *records = film->records;
     bool has_level[LEVELS] = {false}, is_chosen = round->buckets != NULL, has_corners = round->has_corners;
-    uint32_t by_sort[PILOT_SORTS] = {0};
+    uint32_t by_sort[CORNER_PASS_SORTS] = {0};
     uint64_t samples = (uint64_t)estimate->corners;
     now_clear(estimate);
     for (size_t i = 0; i < pixels; i++) {
@@ -129,7 +129,7 @@ static void add_alike(Estimate *estimate, const Film *film, const Round *round)
         bottom = round_block_end(top, film->top, film->height);
         for (int left = 0, right; left < film->width; left = right) {
             right = round_block_end(left, film->left, film->width);
-            if (round_judges(round, left, top)) {
+            if (round_counts_for_error(round, left, top)) {
                 add_pixels(&sums, film, (Tile){left, top, right, bottom});
             }
         }
@@ -161,7 +161,7 @@ static double relative_variance(const LevelSums *sums, double ratio, int steps)
 static double corners_variance(const Estimate *estimate)
 {
     double variance = 0.0, sum = 0.0;
-    for (int sort = 0; sort < PILOT_SORTS; sort++) {
+    for (int sort = 0; sort < CORNER_PASS_SORTS; sort++) {
         double part = estimate->sort_sum[sort];
         sum += part;
         variance += part * part * estimate->sort_variance[sort];
@@ -202,7 +202,7 @@ static void tell(Estimate *estimate, const Film *film, const Round *round, Sampl
     double relative = sum > 0.0 ? normal * 0.5 * sqrt(variance) / sum : 0.0, wrong = sum > 0.0 ? law / sum : 0.0;
     double spread = exp(sqrt(relative * relative + wrong * wrong));
     error->samples = (double)estimate->samples / pixels;
-    error->is_known = round->has_corners ? !round->is_pilot : error->samples >= 2.0;
+    error->is_known = round->has_corners ? !round->is_corner_pass : error->samples >= 2.0;
     error->rmse = sqrt(sum / estimate->judged);
     error->pixel_scale = 1.0;
     error->low = error->rmse / spread;
@@ -218,7 +218,7 @@ void estimate_begin(Estimate *estimate, const Round *round)
         bottom = round_block_end(top, film->top, film->height);
         for (int left = 0, right; left < film->width; left = right) {
             right = round_block_end(left, film->left, film->width);
-            estimate->judged += round_judges(round, left, top) ? (double)(right - left) * (bottom - top) : 0.0;
+            estimate->judged += round_counts_for_error(round, left, top) ? (double)(right - left) * (bottom - top) : 0.0;
         }
     }
 }

@@ -11,14 +11,14 @@ static const double AUDIT_COST = 1.0;    // samples between audits, for each tha
 static const double AUDIT_CHANCE = 1.05; // how much less the error must be, since audits fail by chance; measured
 static const double COST_FADE = 0.8; // of what is known from earlier rounds
 
-static double cost_by_pilot(const Cost *cost, double samples, double pixels)
+static double cost_by_corner_pass(const Cost *cost, double samples, double pixels)
 {
     return cost->sample * samples + cost->pixel * pixels;
 }
 
 static double cost_of(const Cost *cost, double samples, double pixels)
 {
-    double seconds = cost_by_pilot(cost, samples, pixels);
+    double seconds = cost_by_corner_pass(cost, samples, pixels);
     return cost->by_corner_pass > 0.0 ? seconds * cost->seconds / cost->by_corner_pass : seconds;
 }
 
@@ -27,7 +27,7 @@ void goal_count_round(Sampling *s)
     Cost *cost = &s->cost;
     cost->seconds = COST_FADE * cost->seconds + s->round_samples * s->sample_seconds;
     cost->by_corner_pass =
-        COST_FADE * cost->by_corner_pass + cost_by_pilot(cost, s->round_samples, s->round_pixels);
+        COST_FADE * cost->by_corner_pass + cost_by_corner_pass(cost, s->round_samples, s->round_pixels);
 }
 
 void goal_predict(Sampling *s)

@@ -329,8 +329,9 @@ static void batch_flush(const Round *round, LookBatch *batch, RenderStatistics *
         }
     }
     uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
-    alpha_trace(round->prepared, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light,
-                batch->clear, batch->scratch, counted);
+    const KernelCall call = {&batch->places, wanted, batch->draws ? batch->streams : NULL, batch->light, batch->scratch,
+                             counted};
+    alpha_trace(round->prepared, &call, batch->clear);
     for (int i = 0; i < batch->count; i += 2) {
         pair_judge(round, batch, i);
     }

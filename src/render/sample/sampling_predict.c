@@ -55,7 +55,7 @@ void predictor_free(Predictor *predictor)
 void predictor_keep_sorts(Predictor *predictor, const uint16_t *buckets, size_t pixels)
 {
     for (size_t i = 0; i < pixels; i++) {
-        predictor->sorts[i] = (uint8_t)(buckets[i] & ~(PILOT_PROBE | PILOT_SMALL));
+        predictor->sorts[i] = (uint8_t)(buckets[i] & ~(CORNER_PASS_PROBE | CORNER_PASS_SMALL));
     }
 }
 
@@ -66,7 +66,7 @@ typedef struct SortMean {
 void predictor_see_starts(Predictor *predictor, const Allocation *allocation, const Round *round)
 {
     const Film *film = round->film;
-    SortMean sorts[PILOT_SORTS] = {{0.0, 0.0, 0.0}};
+    SortMean sorts[CORNER_PASS_SORTS] = {{0.0, 0.0, 0.0}};
     size_t pixels = (size_t)film->width * (size_t)film->height;
     double weight = 0.0;
     memset(predictor->start_count, 0, sizeof predictor->start_count);

@@ -10,7 +10,8 @@
 // So that rays through corners draw other numbers than the samples of their pixel.
 static const uint32_t CORNER_SEED = UINT32_C(0x9e3779b9);
 
-uint32_t round_samples(const Round *round, size_t pixel)
+// The samples that a pixel gets in a round.
+static uint32_t round_samples(const Round *round, size_t pixel)
 {
     if (!round_has(round, pixel)) {
         return 0; // most pixels of most rounds: their records are not read
@@ -78,7 +79,7 @@ static void pixel_start(const Round *round, const ChosenPixel *chosen, SampleSum
     *record = (PixelRecord){.count = START_SAMPLES,
                             .outer = square_apart(rgb_add_scaled(halves[0], -1.0, halves[1]), slope, alike),
                             .inner = 0.5f * (first + second),
-                            .fresh = round->is_pilot ? off : second,
+                            .fresh = round->is_corner_pass ? off : second,
                             .spread = (float)spread_of(parts, mean, slope, START_SAMPLES)};
 }
 
@@ -174,7 +175,7 @@ static ChosenPixel *block_choose(const Round *round, Tile block, ChosenPixel *ch
     const Film *film = round->film;
     bool has_estimate = !round->sampling->has_no_estimate;
     bool is_whole = film->left % JUDGED_BLOCK == 0 && film->top % JUDGED_BLOCK == 0; // one block of the picture
-    bool is_judged = has_estimate && round_judges(round, block.left, block.top);
+    bool is_judged = has_estimate && round_counts_for_error(round, block.left, block.top);
     for (int row = 0; row < ROWS; row++) {
         int y = block.top + row % QUARTER + row / (2 * QUARTER) * QUARTER;
         int left = block.left + row / QUARTER % 2 * QUARTER;
@@ -184,7 +185,7 @@ static ChosenPixel *block_choose(const Round *round, Tile block, ChosenPixel *ch
             uint32_t count = round_samples(round, begin + (size_t)x);
             if (count > 0) {
                 uint32_t had = film->records[begin + (size_t)x].count;
-                is_judged = is_whole ? is_judged : has_estimate && round_judges(round, x, y);
+                is_judged = is_whole ? is_judged : has_estimate && round_counts_for_error(round, x, y);
                 *chosen++ = (ChosenPixel){x, y, begin + (size_t)x, count, round_starts(round, had), is_judged, 0};
             }
         }

@@ -36,7 +36,7 @@ typedef struct Sampling {
     double audit_next;     // samples before which another one would cost too much
     Predictor *predictor;  // NULL: nobody asks
     Cost cost;
-    float *corners;        // owned by the caller; NULL: there is no such pilot
+    float *corners;        // owned by the caller; NULL: there is no corner pass
     double start;          // by the clock
     double round_end;      // when the last one had been traced
     double sample_seconds; // of a sample, as the last round had it

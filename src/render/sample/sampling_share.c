@@ -544,7 +544,7 @@ static void contrasts_each(const Round *round, ContrastSums *sums,
                            void (*block)(const Round *round, Tile block, ContrastSums *sums))
 {
     const Film *film = round->film;
-    if (!round->judges_some) {
+    if (!round->counts_some) {
         block(round, (Tile){0, 0, film->width, film->height}, sums);
         return;
     }
@@ -552,7 +552,7 @@ static void contrasts_each(const Round *round, ContrastSums *sums,
         bottom = round_block_end(top, film->top, film->height);
         for (int left = 0, right; left < film->width; left = right) {
             right = round_block_end(left, film->left, film->width);
-            if (round_judges(round, left, top)) {
+            if (round_counts_for_error(round, left, top)) {
                 block(round, (Tile){left, top, right, bottom}, sums);
             }
         }

@@ -85,15 +85,21 @@ static uint32_t count_by(const StopRule *rule, const SampleSums *other, uint32_t
     return !(wanted > rule->pilot) ? rule->pilot : wanted < most ? (uint32_t)wanted : most; // a NaN is no number
 }
 
-static void add_set(const Round *round, Batch *batch, const StopPixel *pixel, int set, uint32_t first, uint32_t end,
-                    SampleSums *sums, RenderStatistics *counted)
+// Samples from `first` on, up to `end`, of one of a pixel's sets.
+typedef struct SetPart {
+    int set;
+    uint32_t first, end;
+} SetPart;
+
+static void add_set(const Round *round, Batch *batch, const StopPixel *pixel, SetPart part, SampleSums *sums,
+                    RenderStatistics *counted)
 {
     uint32_t own = pixel_seed(round, pixel->x, pixel->y);
     uint32_t seed = pixel->replica > 0 ? sample_hash_add(own, pixel->replica) : own;
-    ChosenPixel chosen = {.x = pixel->x, .y = pixel->y, .index = pixel->index, .count = end - first};
-    if (end > first) {
-        seed = set == 0 ? seed : sample_hash_add(seed, SECOND_SEED);
-        pixel_add_set(round, batch, &chosen, seed, first, sums, counted);
+    ChosenPixel chosen = {.x = pixel->x, .y = pixel->y, .index = pixel->index, .count = part.end - part.first};
+    if (part.end > part.first) {
+        seed = part.set == 0 ? seed : sample_hash_add(seed, SECOND_SEED);
+        pixel_add_set(round, batch, &chosen, seed, part.first, sums, counted);
     }
 }
 
@@ -107,7 +113,7 @@ static void trace_pixels(const Round *round, StopPixel *pixels, int count, Sampl
     for (int i = 0; i < count; i++) {
         for (int set = 0; set < 2; set++) {
             sums[i][set] = (SampleSums){.squares = rgb_grey(0.0)};
-            add_set(round, &batch, &pixels[i], set, 0, rule.pilot, &sums[i][set], counted);
+            add_set(round, &batch, &pixels[i], (SetPart){set, 0, rule.pilot}, &sums[i][set], counted);
         }
     }
     batch_flush(round, &batch, counted);
@@ -118,7 +124,8 @@ static void trace_pixels(const Round *round, StopPixel *pixels, int count, Sampl
     }
     for (int i = 0; i < count; i++) {
         for (int set = 0; set < 2; set++) {
-            add_set(round, &batch, &pixels[i], set, rule.pilot, pixels[i].count[set], &sums[i][set], counted);
+            SetPart rest = {set, rule.pilot, pixels[i].count[set]};
+            add_set(round, &batch, &pixels[i], rest, &sums[i][set], counted);
         }
     }
     batch_flush(round, &batch, counted);

@@ -218,9 +218,9 @@ void sampling_find_missed(Sampling *s)
         bottom = round_block_end(top, film->top, film->height);
         for (int left = 0, right; left < film->width; left = right) {
             right = round_block_end(left, film->left, film->width);
-            if (round_judges(&s->round, left, top)) {
+            if (round_counts_for_error(&s->round, left, top)) {
                 // Where some pixels stand for all, one row of a block does for it.
-                range_add(&range, film, (Tile){left, top, right, bottom}, s->round.judges_some ? JUDGED_BLOCK : 1);
+                range_add(&range, film, (Tile){left, top, right, bottom}, s->round.counts_some ? JUDGED_BLOCK : 1);
             }
         }
     }

@@ -52,7 +52,9 @@ static void basis_of(Vec3 n, Vec3 *across, Vec3 *along)
     *along = vec3(b, sign + n.y * n.y * a, -n.y);
 }
 
-Vec3 dome_direction(Vec3 normal, double exponent, SamplePoint at)
+// A direction on the side of a unit normal, of a density that goes with its cosine to the power of exponent - 1, for a
+// point of the unit square; of unit length. `exponent` is at least 1.
+static Vec3 dome_direction(Vec3 normal, double exponent, SamplePoint at)
 {
     double x, y, radius = disc_of(at, &x, &y), left = 1.0 - radius * radius;
     double cosine = exponent == 2.0 ? sqrt(left) : pow(left, 1.0 / exponent);
@@ -89,7 +91,8 @@ static Rgb share_of_side(const Prepared *p, const ShadingPoint *at, Vec3 normal,
         own.index = (uint32_t)i;
         own.pair = 0;
         Vec3 towards = dome_direction(normal, exponent, sample_next(at->stream ? at->stream : &own));
-        sum = rgb_add(sum, shade_visibility(p, FEATURES, at, NULL, towards, (double)INFINITY, &blocker, statistics));
+        const ShadeWay way = {.towards = towards, .distance = (double)INFINITY};
+        sum = rgb_add(sum, shade_visibility(p, FEATURES, at, &way, &blocker, statistics));
     }
     return rgb_scale(1.0 / ways, sum);
 }

@@ -13,10 +13,6 @@
 
 enum { DOME_WAYS = 16 };
 
-// A direction on the side of a unit normal, of a density that goes with its cosine to the power of exponent - 1, for a
-// point of the unit square; of unit length. `exponent` is at least 1.
-Vec3 dome_direction(Vec3 normal, double exponent, SamplePoint at);
-
 // What the sky adds at a point. One function for all kernels, not inline: scenes without a sky hold no more than a
 // test.
 Rgb dome_light(const Prepared *p, const ShadeMaterial *material, const ShadingPoint *at, RenderStatistics *statistics);

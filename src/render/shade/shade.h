@@ -283,7 +283,8 @@ RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, RayStack 
     for (int i = 0; i < ways.count && (i == 0 || stack->count + SHADE_WAY_RAYS + kept <= RAY_STACK_MAX); i++) {
         ShadingPoint at = step->at;
         at.normal = ways.normals[i];
-        shade_go_on(p, features, &ways.scatter[i], &at, &step->ray, step->behind, stack, statistics);
+        const ScatterRays rays = {&step->ray, step->behind, stack};
+        shade_go_on(p, features, &ways.scatter[i], &at, &rays, statistics);
     }
 }
 
@@ -320,7 +321,8 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, RayS
         // Its own light first: a reflected ray may open a sum of its own.
         step->light = shade_surface(p, features, &step->at, now->weight, &step->scatter, statistics);
         ray_stack_add(stack, now, step->light);
-        shade_go_on(p, features, &step->scatter, &step->at, now, step->behind, stack, statistics);
+        const ScatterRays rays = {now, step->behind, stack};
+        shade_go_on(p, features, &step->scatter, &step->at, &rays, statistics);
     } else {
         if (features & RENDER_FOG) {
             step->fog = shade_fog(p, (double)INFINITY, now, stack);

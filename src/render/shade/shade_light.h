@@ -232,41 +232,40 @@ RT_ALWAYS_INLINE bool shade_is_far(const Prepared *p, Vec3 point, Vec3 end, doub
     return RT_UNLIKELY(distance > p->near_light) && vec3_max_abs(point) > vec3_max_abs(end);
 }
 
-// The share of the light at `end`, NULL if it has no place, that reaches the point, by colour.
-RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadingPoint *at, const Vec3 *end,
-                                      Vec3 towards, double distance, uint32_t *blocker, RenderStatistics *statistics)
-{
-    Ray ray = {at->point, towards};
-    RayStart start = {at->shape, vec3_dot(at->outward, towards) < 0.0, HIDDEN_SHADOW};
-    statistics->shadow_rays++;
-    if (end && shade_is_far(p, at->point, *end, distance)) {
-        return shade_far_light(p, at, *end, towards, distance);
-    }
-    if ((features & RENDER_TRANSPARENCY) && (p->features & RENDER_TRANSPARENCY)) {
-        return shade_light_through(p, features, at, ray, start, distance);
-    }
-    return rgb_grey(geometry_occluded_again(p->geometry, features, ray, start, distance, blocker) ? 0.0 : 1.0);
-}
-
-// The way from a point to a place in an area.
+// The way from a point to a light.
 typedef struct ShadeWay {
     Vec3 end, towards;
     double distance;
+    bool has_end; // the light has a place
 } ShadeWay;
+
+RT_ALWAYS_INLINE ShadeWay shade_way(const PreparedLight *light, const LightAim *aim)
+{
+    return (ShadeWay){light->position, aim->towards, aim->distance, !light->parallel};
+}
+
+// The share of the light at the end of a way that reaches the point, by colour.
+RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadingPoint *at, const ShadeWay *way,
+                                      uint32_t *blocker, RenderStatistics *statistics)
+{
+    Ray ray = {at->point, way->towards};
+    RayStart start = {at->shape, vec3_dot(at->outward, way->towards) < 0.0, HIDDEN_SHADOW};
+    statistics->shadow_rays++;
+    if (way->has_end && shade_is_far(p, at->point, way->end, way->distance)) {
+        return shade_far_light(p, at, way->end, way->towards, way->distance);
+    }
+    if ((features & RENDER_TRANSPARENCY) && (p->features & RENDER_TRANSPARENCY)) {
+        return shade_light_through(p, features, at, ray, start, way->distance);
+    }
+    return rgb_grey(geometry_occluded_again(p->geometry, features, ray, start, way->distance, blocker) ? 0.0 : 1.0);
+}
 
 // To what is `aside` from the area's middle.
 RT_ALWAYS_INLINE ShadeWay shade_area_way(const ShadingPoint *at, const PreparedLight *light, Vec3 aside)
 {
     Vec3 end = vec3_add(light->position, aside), offset = vec3_sub(end, at->point);
     double distance = vec3_length(offset);
-    return (ShadeWay){end, vec3_scale(1.0 / distance, offset), distance};
-}
-
-// The share of the light there that reaches the point.
-RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadingPoint *at, const ShadeWay *way,
-                                    uint32_t *blocker, RenderStatistics *statistics)
-{
-    return shade_visibility(p, features, at, &way->end, way->towards, way->distance, blocker, statistics);
+    return (ShadeWay){end, vec3_scale(1.0 / distance, offset), distance, true};
 }
 
 // The mean over an area light, of which all would be `arriving`.
@@ -287,7 +286,7 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
             ways[k] = shade_area_way(at, light, aside);
         }
         for (int k = 0; k < grid.asked_count; k++) {
-            grid.asked[k].share = shade_area_one(p, features, at, &ways[k], &blocker, statistics);
+            grid.asked[k].share = shade_visibility(p, features, at, &ways[k], &blocker, statistics);
         }
         if (prepared_is_abandoned(p)) { // grids have up to 10^6 lights
             light_grid_end(&grid);
@@ -305,7 +304,7 @@ RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const Shad
     if (at->stream) {
         uint32_t blocker = NO_BLOCKER;
         ShadeWay way = shade_area_way(at, light, light_area_sample(light, at->point, sample_next(at->stream)));
-        return shade_area_one(p, features, at, &way, &blocker, statistics);
+        return shade_visibility(p, features, at, &way, &blocker, statistics);
     }
     return shade_area_grid(p, features, at, light, arriving, statistics);
 }
@@ -323,10 +322,9 @@ RT_ALWAYS_INLINE Rgb shade_arrived(const Prepared *p, unsigned features, const P
         return at->arrived->share[number];
     }
     uint32_t blocker = NO_BLOCKER;
-    Rgb share = is_area
-                    ? shade_area(p, features, at, light, arriving, statistics)
-                    : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, aim->towards,
-                                       aim->distance, &blocker, statistics);
+    const ShadeWay way = shade_way(light, aim);
+    Rgb share = is_area ? shade_area(p, features, at, light, arriving, statistics)
+                        : shade_visibility(p, features, at, &way, &blocker, statistics);
     if (is_kept) {
         at->arrived->known |= UINT32_C(1) << number;
         at->arrived->share[number] = share;

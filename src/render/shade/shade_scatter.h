@@ -107,10 +107,19 @@ RT_ALWAYS_INLINE bool shade_is_followed(const Prepared *p, int level, double wei
     return level < p->max_trace_level && !(weight < p->adc_bailout) && !prepared_is_abandoned(p);
 }
 
+// Where rays that continue from a surface come from, and where they go.
+typedef struct ScatterRays {
+    const StackedRay *from;
+    MediumStack behind; // what a ray is inside of behind the surface, where there are interiors
+    RayStack *stack;
+} ScatterRays;
+
 // The mirrored ray, if it is followed. The angle does not enter its weight.
 RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ScatterRecord *scatter,
-                                    const ShadingPoint *at, const StackedRay *from, RayStack *stack)
+                                    const ShadingPoint *at, const ScatterRays *rays)
 {
+    const StackedRay *from = rays->from;
+    RayStack *stack = rays->stack;
     double weight = from->weight * scatter->reflection_weight;
     if (!shade_is_followed(p, from->level, weight)) {
         return;
@@ -132,18 +141,25 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
     ray_stack_push(features, stack, &ray);
 }
 
+// How far a ray has come.
+typedef struct RayAge {
+    double weight;
+    int level;
+    uint64_t passed;
+} RayAge;
+
 // What light that goes straight on is multiplied with, and the weight of its ray; false when that is not followed.
-RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ScatterRecord *scatter, double from_weight, int level,
-                                    uint64_t passed, Rgb *through, double *weight)
+RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ScatterRecord *scatter, RayAge age, Rgb *through,
+                                    double *weight)
 {
     *through = scatter->through;
-    *weight = from_weight * (scatter->through_weight > 0.0 ? scatter->through_weight : rgb_max_abs(*through));
+    *weight = age.weight * (scatter->through_weight > 0.0 ? scatter->through_weight : rgb_max_abs(*through));
     if (scatter->conserves_energy) {
         Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, scatter->reflectance);
         *through = rgb_mul(*through, left);
         *weight *= rgb_max(left);
     }
-    bool goes_on = !(level >= p->max_trace_level || *weight < p->adc_bailout || passed >= p->crossings_max ||
+    bool goes_on = !(age.level >= p->max_trace_level || *weight < p->adc_bailout || age.passed >= p->crossings_max ||
                      prepared_is_abandoned(p) ||
                      (scatter->through_weight == 0.0 && fabs(rgb_luminance(*through)) < p->adc_bailout));
     *through = rgb_scale(scatter->refraction, *through);
@@ -159,12 +175,12 @@ RT_ALWAYS_INLINE Rgb shade_sent_through(const ScatterRecord *scatter)
 // The ray that goes straight on, whose share may be below 0. It stays on its level; what bounds it is that a line meets
 // only so many surfaces.
 RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, unsigned features, const ScatterRecord *scatter,
-                                     const ShadingPoint *at, const StackedRay *from, MediumStack behind,
-                                     RayStack *stack)
+                                     const ShadingPoint *at, const ScatterRays *rays)
 {
+    const StackedRay *from = rays->from;
     Rgb through;
     double weight;
-    if (!shade_goes_on(p, scatter, from->weight, from->level, from->passed, &through, &weight)) {
+    if (!shade_goes_on(p, scatter, (RayAge){from->weight, from->level, from->passed}, &through, &weight)) {
         return;
     }
     StackedRay ray = {
@@ -174,9 +190,9 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, unsigned features, const
         .weight = weight,
         .level = from->level,
         .passed = from->passed + 1,
-        .inside = behind,
+        .inside = rays->behind,
     };
-    ray_stack_push(features, stack, &ray);
+    ray_stack_push(features, rays->stack, &ray);
 }
 
 // Where a surface is between two interiors: how the index of refraction changes; returns what the ray is inside of behind
@@ -193,10 +209,8 @@ RT_ALWAYS_INLINE MediumStack shade_cross(const Prepared *p, unsigned features, S
         behind = medium_enter(at->media, behind, (MediumRegion){body, at->interior, is_solid});
     }
     at->ior_ratio = medium_ior(p->interiors, at->media, behind) / medium_ior(p->interiors, at->media, at->before);
-    double ior_before, ior_behind;
-    medium_fresnel_sides(p->interiors, at->media, at->before, behind, at->interior, at->leaves, &ior_before,
-                         &ior_behind);
-    at->fresnel_ratio = ior_behind / ior_before;
+    FresnelSides sides = medium_fresnel_sides(p->interiors, at->media, at->before, behind, at->interior, at->leaves);
+    at->fresnel_ratio = sides.behind / sides.before;
     return behind;
 }
 
@@ -221,12 +235,14 @@ RT_ALWAYS_INLINE bool shade_bent(unsigned features, const ShadingPoint *at, Vec3
 // the next level. There is none when it is too deep or worth too little, and then no other mirrored ray either.
 // Measured.
 RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ScatterRecord *scatter, Rgb fade,
-                                 const ShadingPoint *at, const StackedRay *from, MediumStack behind, RayStack *stack)
+                                 const ShadingPoint *at, const ScatterRays *rays)
 {
+    const StackedRay *from = rays->from;
+    RayStack *stack = rays->stack;
     Vec3 direction;
     bool is_bent = shade_bent(features, at, at->normal, &direction);
     int place = stack->count;
-    shade_transmit(p, features, scatter, at, from, is_bent ? behind : at->before, stack);
+    shade_transmit(p, features, scatter, at, &(ScatterRays){from, is_bent ? rays->behind : at->before, stack});
     if (stack->count == place) {
         return !is_bent;
     }
@@ -252,8 +268,7 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const Sca
 
 // What goes through; true when all of it is mirrored instead.
 RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, const ScatterRecord *scatter,
-                                       const ShadingPoint *at, const StackedRay *from, MediumStack behind,
-                                       RayStack *stack)
+                                       const ShadingPoint *at, const ScatterRays *rays)
 {
     ScatterRecord faded = *scatter;
     Rgb fade = rgb_grey(1.0);
@@ -265,9 +280,9 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
         scatter = &faded;
     }
     if ((features & RENDER_INTERIORS) && at->ior_ratio != 1.0) {
-        return shade_bend(p, features, scatter, fade, at, from, behind, stack);
+        return shade_bend(p, features, scatter, fade, at, rays);
     }
-    shade_transmit(p, features, scatter, at, from, behind, stack);
+    shade_transmit(p, features, scatter, at, rays);
     return false;
 }
 
@@ -280,16 +295,16 @@ RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, int level, Rgb share, Re
     statistics->cut_by_weight += level >= p->max_trace_level ? 0 : units;
 }
 
-// The rays that continue from a hit; the reflected one will be traced first. `behind` is what the ray is inside of
-// behind the surface, where there are interiors.
+// The rays that continue from a hit; the reflected one will be traced first.
 RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ScatterRecord *scatter,
-                                  const ShadingPoint *at, const StackedRay *from, MediumStack behind, RayStack *stack,
-                                  RenderStatistics *statistics)
+                                  const ShadingPoint *at, const ScatterRays *rays, RenderStatistics *statistics)
 {
+    const StackedRay *from = rays->from;
+    const RayStack *stack = rays->stack;
     int place = stack->count;
     bool is_total = false;
     if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(shade_sent_through(scatter))) {
-        is_total = shade_go_through(p, features, scatter, at, from, behind, stack);
+        is_total = shade_go_through(p, features, scatter, at, rays);
         statistics->transmitted_rays += (uint64_t)(stack->count - place);
         if (stack->count == place) {
             shade_note_cut(p, from->level, rgb_mul(from->share, shade_sent_through(scatter)), statistics);
@@ -305,7 +320,7 @@ RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const Sc
         is_total = false;
     }
     if ((features & RENDER_REFLECTION) && scatter->reflection_weight != 0.0 && !is_total) {
-        shade_reflect(p, features, scatter, at, from, stack);
+        shade_reflect(p, features, scatter, at, rays);
         statistics->reflected_rays += stack->count > place;
         if (stack->count == place) {
             shade_note_cut(p, from->level, rgb_mul(from->share, scatter->reflectance), statistics);

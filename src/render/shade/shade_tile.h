@@ -157,7 +157,7 @@ RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile
     double x[TILE_RAYS], y[TILE_RAYS];
     uint32_t count = 0;
     rays->end = light->position;
-    rays->aside = light->area_radius;
+    rays->end_radius = light->area_radius;
     rays->farthest = 0.0;
     for (; asked; asked &= asked - 1, count++) {
         surface[count] = (uint8_t)__builtin_ctzll(asked);
@@ -195,14 +195,14 @@ RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned feature
     LightTile *tile = &scratch->tile;
     TileCrossings *crossings = &scratch->crossings;
     const TileSurfaces *from = &tile->surfaces;
-    uint64_t dark = 0, told = geometry_crossed(p->geometry, features, from, rays, asked, crossings), clear = 0;
-    if ((features & TRACE_SPHERE_BVH) && !told) {
+    uint64_t dark = 0, known = geometry_crossed(p->geometry, features, from, rays, asked, crossings), clear = 0;
+    if ((features & TRACE_SPHERE_BVH) && !known) {
         clear = asked & ~geometry_occluded_surfaces(p->geometry, features, from, rays, together, asked);
     }
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
         Rgb share = rgb_grey(1.0);
-        bool is_even = (told >> i & 1) &&
+        bool is_even = (known >> i & 1) &&
                        shade_even_share(p, features, crossings->shape[i], crossings->count[i], &share);
         if (!is_even && !(clear >> i & 1)) {
             ShadingPoint at = shade_tile_lit_point(features, scratch, i);

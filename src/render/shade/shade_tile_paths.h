@@ -76,8 +76,8 @@ RT_ALWAYS_INLINE bool shade_paths_pass(const Prepared *p, const LightTile *tile,
     if (rgb_is_black(shade_sent_through(scatter))) {
         return false;
     }
-    if (!shade_goes_on(p, scatter, paths->weight[ray], paths->level[ray], paths->passed[ray], &share,
-                       &through->weight)) {
+    const RayAge age = {paths->weight[ray], paths->level[ray], paths->passed[ray]};
+    if (!shade_goes_on(p, scatter, age, &share, &through->weight)) {
         shade_note_cut(p, paths->level[ray], rgb_mul(paths->share[ray], shade_sent_through(scatter)), statistics);
         return false;
     }

@@ -34,7 +34,7 @@ static uint64_t tile_aim(LightTile *tile, const PreparedLight *light)
     const TileSurfaces *surfaces = &tile->surfaces;
     uint64_t before = 0, front = 0, behind = 0;
     tile->rays.end = light->position;
-    tile->rays.aside = 0.0;
+    tile->rays.end_radius = 0.0;
     Doubles farthest = doubles_splat(0.0);
     for (int i = 0; i < surfaces->count; i += DOUBLES) {
         LightAims aim = lights_aim(light, vec3s_load(surfaces->point, i), vec3s_load(tile->normal, i));

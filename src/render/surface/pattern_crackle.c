@@ -88,16 +88,24 @@ static inline void slices_of(double p, double centre, Slice slices[AXIS])
     }
 }
 
-// The cubes of one column from number `begin`.
-static inline void look_into(const Noise *noise, unsigned hash, Vec3 p, const Slice *x, const Slice *y, const Slice *z,
-                             int begin, int end, double offset, Nearest *nearest)
+// The cubes about a point, and the square that all ways are longer by.
+typedef struct Cubes {
+    Vec3 p;
+    Slice x[AXIS], y[AXIS], z[AXIS];
+    double offset;
+} Cubes;
+
+// The cubes of column i, j from number `begin`.
+static inline void look_into(const Noise *noise, const Cubes *cubes, int i, int j, int begin, int end, Nearest *nearest)
 {
+    const Slice *x = &cubes->x[i], *y = &cubes->y[j], *z = cubes->z;
+    unsigned hash = noise->hash[noise->hash[x->index] ^ y->index];
     for (int k = begin; k < end; k++) {
-        if (x->gap + y->gap + z[k].gap + offset < nearest->way[2]) {
+        if (x->gap + y->gap + z[k].gap + cubes->offset < nearest->way[2]) {
             const double *numbers = &noise->sites[noise->hash[hash ^ z[k].index]];
             Vec3 site = vec3_add(vec3(x->corner, y->corner, z[k].corner), vec3(numbers[0], numbers[1], numbers[2]));
-            Vec3 way = vec3_sub(p, site);
-            keep_nearest(nearest, way.x * way.x + way.y * way.y + way.z * way.z + offset, site);
+            Vec3 way = vec3_sub(cubes->p, site);
+            keep_nearest(nearest, way.x * way.x + way.y * way.y + way.z * way.z + cubes->offset, site);
         }
     }
 }
@@ -105,20 +113,18 @@ static inline void look_into(const Noise *noise, unsigned hash, Vec3 p, const Sl
 static Nearest find_nearest_by_squares(const Noise *noise, Vec3 p, double offset)
 {
     Nearest nearest = {.way = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .site = p};
-    Slice x[AXIS], y[AXIS], z[AXIS];
-    slices_of(p.x, floor(p.x), x);
-    slices_of(p.y, floor(p.y), y);
-    slices_of(p.z, floor(p.z), z);
+    Cubes cubes = {.p = p, .offset = offset};
+    slices_of(p.x, floor(p.x), cubes.x);
+    slices_of(p.y, floor(p.y), cubes.y);
+    slices_of(p.z, floor(p.z), cubes.z);
     enum { BESIDE = 3 };
     for (int pass = 0; pass < 2; pass++) {
         int most = pass == 0 ? BESIDE : AXIS;
         for (int i = 0; i < most; i++) {
-            unsigned of_x = noise->hash[x[i].index];
             for (int j = 0; j < most; j++) {
                 bool was_seen = pass == 1 && i < BESIDE && j < BESIDE;
-                if (x[i].gap + y[j].gap + offset < nearest.way[2]) {
-                    look_into(noise, noise->hash[of_x ^ y[j].index], p, &x[i], &y[j], z, was_seen ? BESIDE : 0, most,
-                              offset, &nearest);
+                if (cubes.x[i].gap + cubes.y[j].gap + offset < nearest.way[2]) {
+                    look_into(noise, &cubes, i, j, was_seen ? BESIDE : 0, most, &nearest);
                 }
             }
         }
