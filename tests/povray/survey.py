@@ -75,7 +75,7 @@ LACKING = {"E0210", "E0250", "E0251", "E0252", "E0269"}
 MARK = "survey"
 # The greatest difference of a pixel, in steps of 1/65535, up to which scenes are counted together.
 STEPS = [2, 16, 256, 4096, 65535]
-MEETS, BUT_FOR, MISSES = "meets", "meets where POV-Ray agrees with itself", "misses"
+MEETS, BUT_FOR, LARGER, MISSES = "meets", "meets where POV-Ray agrees with itself", "misses, and meets where it is larger", "misses"
 SIZE = 160, 120  # of the pictures of --render
 ELSEWHERE = 24  # how often POV-Ray draws a scene that differs all but the same, to tell where it does not agree with itself
 
@@ -332,7 +332,9 @@ def write_table(records, path):
 def verdict(record):
     """Whether a scene that was compared meets the bar."""
     picture, by_chance = record["picture"], record.get("chance", {})
-    if not picture["agrees"] or not by_chance.get("like", True):
+    if not picture["agrees"]:
+        return LARGER if picture.get("larger", picture["pixels"]) <= pictures.TIE_SHARE * picture["pixels"] else MISSES
+    if not by_chance.get("like", True):
         return MISSES
     return BUT_FOR if picture["not_elsewhere"] > 0 else MEETS
 
@@ -350,6 +352,7 @@ def print_pictures(records):
     verdicts = collections.Counter(verdict(record) for record in judged)
     print(f"{verdicts[MEETS]:6}  {MEETS}: within 2 of 65535 in all but 0.01 % of their pixels")
     print(f"{verdicts[BUT_FOR]:6}  {BUT_FOR}: but for at most 0.1 % that change with a billionth of a pixel or with the scene's size")
+    print(f"{verdicts[LARGER]:6}  {LARGER}: POV-Ray's own lengths, but for 0.01 % of the pixels, are what is seen")
     print(f"{verdicts[MISSES]:6}  {MISSES}")
     drawn_by_chance = [record["chance"] for record in judged if "chance" in record]
     lenses = sum("lens" in each for each in drawn_by_chance)
