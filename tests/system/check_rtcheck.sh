@@ -105,6 +105,9 @@ expect 'half a picture' 1 '*"cannot read "*".povray.png: "*' --povray "$work/cut
 printf '#if (clock != 0.25 | !clock_on) #error "no clock" #end sphere { 0, 1 }\n' > clock.scn
 expect 'the clock is given to rtlang' 0 '"clock.scn: "*": ok"' -W 16 -H 8 -K 0.25 --povray "$work/same" clock.scn
 expect 'and is not otherwise' 1 '*"no clock"*' -W 16 -H 8 --povray "$work/same" clock.scn
+printf '#fopen F "said.txt" write #write (F, 1) #fclose F sphere { 0, 1 }\n' > writes.scn
+expect 'a scene may not write' 1 '*"may not write"*' -W 16 -H 8 --povray "$work/same" writes.scn
+expect 'but where it is allowed' 0 '"writes.scn: "*": ok"' -W 16 -H 8 --allow-write . --povray "$work/same" writes.scn
 expect 'no POV-Ray' 3 '"rtcheck: no program \`nosuch\` found"*' --povray nosuch 'a scene.scn'
 expect 'no scene' 2 '*"no scene given"*' --json
 expect 'a wrong number' 2 '*"--width\` wants"*"found \`0\`"*' --width 0 'a scene.scn'
