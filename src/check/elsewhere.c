@@ -97,8 +97,9 @@ static bool draw(const ElsewhereJob *job, const char *scene, const char *picture
                      .height = options->height,
                      .clock = options->clock_given ? &options->clock : NULL,
                      .threads = options->threads};
-    bool is_drawn = povray_run(&run, detail, sizeof detail) &&
-                    image_read(picture, (uint64_t)options->width * (uint64_t)options->height, image, &error) == IMAGE_OK;
+    bool is_drawn =
+        povray_run(&run, detail, sizeof detail) &&
+        image_read(picture, (uint64_t)options->width * (uint64_t)options->height, image, &error) == IMAGE_OK;
     unlink(log);
     free(folder);
     free(paths);
@@ -163,6 +164,12 @@ typedef struct Count {
     bool *marked;
 } Count;
 
+static void files_name(const ElsewhereJob *job, Count *count)
+{
+    snprintf(count->scene, sizeof count->scene, "%s/elsewhere.pov", job->folder);
+    snprintf(count->picture, sizeof count->picture, "%s/elsewhere.png", job->folder);
+}
+
 // One more picture of the scene with its cameras turned.
 static uint64_t count_turned(const ElsewhereJob *job, Count *count, const Image *ours, const Image *theirs, int i)
 {
@@ -199,14 +206,56 @@ static uint64_t count_written(const ElsewhereJob *job, Count *count, const Image
     return more;
 }
 
+// POV-Ray's picture of what rtlang wrote of the scene, in a place.
+static bool draw_there(const ElsewhereJob *job, const Count *count, Place place, Image *image)
+{
+    return place_write(job, &place, count->scene) && draw(job, count->scene, count->picture, image);
+}
+
+// Pixels in which ours is not that of the larger scene, or in which what rtlang wrote says nothing: see is_unsure.
+static int64_t count_unlike(const ElsewhereJob *job, const Comparison *pictures)
+{
+    int64_t count = 0;
+
+    for (size_t i = 0; i < pixel_count(job); i++) {
+        bool is_apart = image_pixel_difference(pictures->ours, pictures->theirs, i) > job->threshold;
+        bool is_ours = image_pixel_difference(pictures->ours, pictures->other, i) <= job->threshold;
+        count += is_apart ? !is_unsure(job, pictures, i) : !is_ours;
+    }
+    return count;
+}
+
+int64_t elsewhere_larger(const ElsewhereJob *job, const Image *ours, const Image *theirs)
+{
+    static const double scales[] = {0x1p6, 0x1p10, 0x1p14};
+    int64_t least = -1;
+    Count count = {.marked = NULL};
+
+    files_name(job, &count);
+    count.is_witness = draw_there(job, &count, (Place){1.0, 0.0}, &count.written) &&
+                       count_apart(job, theirs, &count.written) <= most_excused(job);
+    for (int i = 0; count.is_witness && least != 0 && i < 3; i++) {
+        Image larger = {0};
+        Comparison pictures = {ours, theirs, &count.written, &larger};
+        if (draw_there(job, &count, (Place){scales[i], 0.0}, &larger)) {
+            int64_t unlike = count_unlike(job, &pictures);
+            least = least < 0 || unlike < least ? unlike : least;
+        }
+        image_fini(&larger);
+    }
+    image_fini(&count.written);
+    unlink(count.scene);
+    unlink(count.picture);
+    return least;
+}
+
 uint64_t elsewhere_count(const ElsewhereJob *job, const Image *ours, const Image *theirs)
 {
     Count count = {.marked = calloc(pixel_count(job), sizeof *count.marked)};
     uint64_t most = most_excused(job), apart = count_apart(job, ours, theirs), found = 0;
     bool may_suffice = (double)apart - (double)most <= job->options->ties * (double)pixel_count(job);
 
-    snprintf(count.scene, sizeof count.scene, "%s/elsewhere.pov", job->folder);
-    snprintf(count.picture, sizeof count.picture, "%s/elsewhere.png", job->folder);
+    files_name(job, &count);
     for (int i = 0; count.marked && may_suffice && found < apart && i < job->options->elsewhere; i++) {
         found += i % 2 == 0 ? count_turned(job, &count, ours, theirs, i / 2)
                             : count_written(job, &count, ours, theirs, i / 2);

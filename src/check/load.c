@@ -56,6 +56,9 @@ rt_status scene_load(rt_session *session, const Options *options, char *const *i
     for (int i = 0; status == RT_OK && i < options->include_path_count; i++) {
         status = rt_add_include_path(session, include_paths[i]);
     }
+    for (int i = 0; status == RT_OK && i < options->write_folder_count; i++) {
+        status = rt_allow_write(session, options->write_folders[i]);
+    }
     if (status == RT_OK && options->clock_given) {
         status = rt_set_clock(session, options->clock);
     }

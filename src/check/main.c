@@ -230,8 +230,7 @@ static void pictures_compare(const Options *options, const Image *ours, const Im
 
 // Of the pixels that are beyond the threshold and not yet marked, marks those in which a picture at `path` differs from
 // ours by more than that; returns how many.
-static uint64_t doubts_mark(const Check *check, const Image *ours, const Image *theirs, const char *path,
-                            bool *marked)
+static uint64_t doubts_mark(const Check *check, const Image *ours, const Image *theirs, const char *path, bool *marked)
 {
     double threshold = threshold_between_steps(check->options->threshold);
     Outcome unused = {0};
@@ -293,6 +292,9 @@ static void elsewhere_find(const Check *check, const Image *ours, const Image *t
 
     outcome->povray_elsewhere = elsewhere_count(&job, ours, theirs);
     outcome_judge(check->options, outcome->povray_elsewhere, outcome);
+    if (!outcome->agrees) {
+        outcome->larger = elsewhere_larger(&job, ours, theirs);
+    }
 }
 
 // False when the report cannot be written.
@@ -303,7 +305,7 @@ static bool scene_check(const Check *check, int number, Outcome *outcome)
     bool fine = true;
     Files files;
 
-    *outcome = (Outcome){.scene = check->options->scenes[number]};
+    *outcome = (Outcome){.scene = check->options->scenes[number], .larger = -1};
     if (!files_init(&files, check, number)) {
         snprintf(outcome->detail, sizeof outcome->detail, "out of memory");
     } else if (rtlang_run(check, files.rtlang, &run) && povray_make(check, &files, outcome) &&

@@ -184,44 +184,48 @@ static bool apply_size(Options *options, const char *argument, OptionReading *re
     return option_parse_integer(end + 1, 16, 65535, &options->race_height);
 }
 
+static bool apply_allow_write(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "a folder";
+    options->write_folders[options->write_folder_count++] = argument;
+    return argument[0] != '\0';
+}
+
 static const OptionRow rows[] = {
     {'W', "width", "PIXELS", apply_width, "width of the pictures (default 320)"},
     {'H', "height", "PIXELS", apply_height, "height of the pictures (default 240)"},
     {'K', "clock", "NUMBER", apply_clock, "the scene's clock (default 0)"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat"},
-    {0, "threshold", "VALUE", apply_threshold,
-     "greatest difference of a pixel that counts as equal (default 2/65535)"},
-    {0, "ties", "SHARE", apply_ties,
-     "share of the pixels that may differ by more (default 0.0001)"},
+    {0, "allow-write", "FOLDER", apply_allow_write,
+     "let rtlang's run of a scene write files below FOLDER, as POV-Ray's does; may repeat"},
+    {0, "threshold", "VALUE", apply_threshold, "greatest difference of a pixel that counts as equal (default 2/65535)"},
+    {0, "ties", "SHARE", apply_ties, "share of the pixels that may differ by more (default 0.0001)"},
     {0, "doubts", "N", apply_doubts,
      "draw what differs N more times, put elsewhere: pixels that only rounding decides do not count"},
     {0, "elsewhere", "N", apply_elsewhere,
-     "have POV-Ray draw what differs N more times, all but the same: where it does not agree with itself does not count"},
+     "have POV-Ray draw what differs N more times, all but the same: where it does not agree with itself does not "
+     "count"},
     {0, "povray", "PROGRAM", apply_povray, "POV-Ray's program (default povray)"},
     {0, "study", NULL, apply_study,
      "error against time instead: ladders of samples, and the race against POV-Ray's anti-aliasing"},
     {0, "race", NULL, apply_race, "of --study the race against POV-Ray alone"},
     {0, "budget", "SECONDS", apply_budget,
      "how long a scene's study may take, what does not fit being left out (default 120; 0: no limit)"},
-    {0, "most", "N", apply_most,
-     "samples a pixel at the top of a ladder (default 256, with --race 64)"},
+    {0, "most", "N", apply_most, "samples a pixel at the top of a ladder (default 256, with --race 64)"},
     {0, "reference", "N", apply_reference,
      "samples a pixel of the reference (default 16 times --most, of a race 256, or less by the budget)"},
     {0, "size", "WxH", apply_size,
      "size of the race's pictures (default: POV-Ray's shortest run takes 0.5 s, or less by the budget)"},
     {0, "stability", NULL, apply_stability,
      "measure how numbers hold up: formulas, stiff scenes, and the scenes put elsewhere"},
-    {0, "cases", "N", apply_cases,
-     "cases of each family (default 20000)"},
-    {0, "seed", "N", apply_seed,
-     "other random cases (default 0)"},
+    {0, "cases", "N", apply_cases, "cases of each family (default 20000)"},
+    {0, "seed", "N", apply_seed, "other random cases (default 0)"},
     {0, "report", "FOLDER", apply_report, "write index.html there, with all pictures in it"},
     {0, "keep", "FOLDER", apply_keep, "keep the pictures and POV-Ray's messages there"},
     {0, "json", NULL, apply_json, "print one JSON object a scene; with --report also results.json"},
     {0, "color", "WHEN", apply_color,
      "colour what is said on stderr: always, never, or auto (default): on a terminal, unless NO_COLOR is set"},
-    {'j', "threads", "N", apply_threads,
-     "threads of each renderer (default: all processors)"},
+    {'j', "threads", "N", apply_threads, "threads of each renderer (default: all processors)"},
     {'V', "version", NULL, NULL, "print the version and stop"},
     {'h', "help", NULL, NULL, "print this and stop"},
 };
@@ -270,7 +274,8 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
                          .cases = 20000,
                          .budget = 120.0};
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
-    if (!options->include_paths) {
+    options->write_folders = calloc((size_t)argc + 1, sizeof *options->write_folders);
+    if (!options->include_paths || !options->write_folders) {
         (void)option_complain(&reading, "out of memory");
         return complain(options, &reading);
     }
@@ -291,4 +296,5 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
 void options_fini(Options *options)
 {
     free(options->include_paths);
+    free(options->write_folders);
 }

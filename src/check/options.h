@@ -26,6 +26,8 @@ struct Options {
     const char *report; // folder for the page; NULL: none is written
     const char **include_paths; // owned list
     int include_path_count;
+    const char **write_folders; // owned list: below them scenes may write
+    int write_folder_count;
     bool is_stability; // numbers instead of pictures beside POV-Ray's
     int cases, seed;   // is_stability: of each family; added to the seed
     bool json;

@@ -28,14 +28,16 @@ void report_text(FILE *out, const Outcome *outcome)
     fprintf(out, "%s: max %.0f, rmse %.3g, psnr %.1f dB, flip %.2g", outcome->scene, report_steps(d->max),
             report_steps(d->rmse), d->psnr, outcome->flip);
     fprintf(out, ", beyond %" PRIu64 " (%.4f %%), beyond 1/65535 %" PRIu64 ", beyond 1/255 %" PRIu64,
-            d->pixels_beyond[BEYOND_THRESHOLD],
-            100.0 * (double)d->pixels_beyond[BEYOND_THRESHOLD] / (double)d->pixels, d->pixels_beyond[BEYOND_CODE_16],
-            d->pixels_beyond[BEYOND_CODE_8]);
+            d->pixels_beyond[BEYOND_THRESHOLD], 100.0 * (double)d->pixels_beyond[BEYOND_THRESHOLD] / (double)d->pixels,
+            d->pixels_beyond[BEYOND_CODE_16], d->pixels_beyond[BEYOND_CODE_8]);
     if (outcome->decided_by_rounding > 0) {
         fprintf(out, ", %" PRIu64 " by rounding", outcome->decided_by_rounding);
     }
     if (outcome->povray_elsewhere > 0) {
         fprintf(out, ", %" PRIu64 " not elsewhere", outcome->povray_elsewhere);
+    }
+    if (outcome->larger >= 0) {
+        fprintf(out, ", %" PRId64 " where it is larger", outcome->larger);
     }
     fprintf(out, ", rtlang %.3f s, povray %.3f s (%.1fx)%s%s: %s\n", outcome->rtlang_seconds, outcome->povray_seconds,
             outcome->povray_seconds / outcome->rtlang_seconds, outcome->range[0] != '\0' ? ", " : "", outcome->range,
@@ -59,6 +61,9 @@ void report_json(FILE *out, const Outcome *outcome)
                 d->pixels_beyond[BEYOND_THRESHOLD], d->pixels_beyond[BEYOND_CODE_16], d->pixels_beyond[BEYOND_CODE_8]);
         fprintf(out, ", \"by_rounding\": %" PRIu64 ", \"not_elsewhere\": %" PRIu64, outcome->decided_by_rounding,
                 outcome->povray_elsewhere);
+        if (outcome->larger >= 0) {
+            fprintf(out, ", \"larger\": %" PRId64, outcome->larger);
+        }
         fprintf(out, ", \"pixels\": %" PRIu64, d->pixels);
         json_print_number(out, "rtlang_seconds", outcome->rtlang_seconds);
         json_print_number(out, "povray_seconds", outcome->povray_seconds);

@@ -21,6 +21,7 @@ typedef struct Outcome {
     bool agrees;
     uint64_t decided_by_rounding; // pixels beyond the threshold that are other where the scene is put elsewhere
     uint64_t povray_elsewhere;    // pixels beyond the threshold in which POV-Ray does not agree with itself
+    int64_t larger;               // pixels beyond it where the scene is larger, or -1: see elsewhere_larger
     ImageDifference difference;
     double flip;
     double rtlang_seconds, povray_seconds; // whole run of a renderer, from text to file

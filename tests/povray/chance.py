@@ -29,7 +29,7 @@ MOST_APART = 1e-3  # of a picture's pixels
 LENS_STEP = 0.05
 LENS_BAR = 0.025  # share by which POV-Ray's lens may seem wider or narrower
 LENS_RAYS = [300, 400, 500]  # of POV-Ray's pictures, each with other rays; of rtlang's the middle one
-WORDS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\bjitter\b'
+WORDS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\bjitter\b(?:\s+[\d.]+)?'
                    r'|\bcrand\s+[-+]?[\d.]+'
                    r'|\b(?:aperture|blur_samples)\s+[\d.]+(?:\s*,\s*\d+)?', re.DOTALL)
 

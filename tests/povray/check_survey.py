@@ -12,7 +12,9 @@ import tempfile
 
 sys.dont_write_bytecode = True  # the folder is distributed as it is
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import chance  # noqa: E402
 import pictures  # noqa: E402
+import survey  # noqa: E402
 import survey_times  # noqa: E402
 
 SURVEY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "survey.py")
@@ -50,6 +52,25 @@ def check_times(tell, folder):
     tell(survey_times.ratio({"rtlang": [3.0], "povray": [None]}) is None, "what one program does not finish has no ratio")
 
 
+def check_verdicts(tell):
+    """What is said of a comparison: by what rtcheck counts, and by chance."""
+    record = {"picture": {"agrees": True, "not_elsewhere": 0, "pixels": 19200}}
+    tell(survey.verdict(record) == survey.MEETS, "equal pictures meet the bar")
+    record["picture"]["not_elsewhere"] = 3
+    tell(survey.verdict(record) == survey.BUT_FOR, "so do those that differ where POV-Ray differs from itself")
+    record["chance"] = {"like": False}
+    tell(survey.verdict(record) == survey.MISSES, "but not with means that differ")
+    record["picture"]["agrees"] = False
+    tell(survey.verdict(record) == survey.MISSES, "nor others")
+    record["picture"]["larger"] = 2
+    tell(survey.verdict(record) == survey.MISSES, "nor where more than 0.01 % of the pixels differ in larger scenes")
+    record["picture"]["larger"] = 1
+    tell(survey.verdict(record) == survey.LARGER, "what is equal where it is larger is told from them")
+    tell(chance.without("rainbow { jitter 0.01 arc_angle 9 }").split() == "rainbow { arc_angle 9 }".split() and
+         chance.without("light_source { 0, 1 jitter }").split() == "light_source { 0, 1 }".split(),
+         "chance is left out of lights and of rainbows")
+
+
 def main():
     number = failed = 0
 
@@ -59,6 +80,7 @@ def main():
         failed += not fine
         print(f"{'ok' if fine else 'not ok'} {number} - {words}")
 
+    check_verdicts(tell)
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "survey.json")
         done = subprocess.run([sys.executable, SURVEY, "--json", results, *write_scenes(folder)],

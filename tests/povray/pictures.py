@@ -101,7 +101,8 @@ def run(program, arguments, folder=None):
 
 def render_rtlang(scene, picture, folders, width=WIDTH, height=HEIGHT, more=(), folder=None):
     paths = [f"-I{folder}" for folder in folders]
-    run("rtlang", [os.environ["RTLANG"], "-q", f"-W{width}", f"-H{height}", "--depth=16", "--file-gamma=1",
+    written = [f"--allow-write={folder}"] if folder else []
+    run("rtlang", [os.environ["RTLANG"], "-q", *written, f"-W{width}", f"-H{height}", "--depth=16", "--file-gamma=1",
                    "-o", picture, *more, *paths, scene], folder)
 
 

@@ -75,7 +75,7 @@ LACKING = {"E0210", "E0250", "E0251", "E0252", "E0269"}
 MARK = "survey"
 # The greatest difference of a pixel, in steps of 1/65535, up to which scenes are counted together.
 STEPS = [2, 16, 256, 4096, 65535]
-MEETS, BUT_FOR, MISSES = "meets", "meets where POV-Ray agrees with itself", "misses"
+MEETS, BUT_FOR, LARGER, MISSES = "meets", "meets where POV-Ray agrees with itself", "misses, and meets where it is larger", "misses"
 SIZE = 160, 120  # of the pictures of --render
 ELSEWHERE = 24  # how often POV-Ray draws a scene that differs all but the same, to tell where it does not agree with itself
 
@@ -169,16 +169,35 @@ def needs_of_text(path, seen, known):
     return needs
 
 
-def of_animation(path):
-    """What makes a scene the first frame of the animation that the .ini of its name is for."""
+def first_frame(path):
+    """The number of the first frame of the animation that the .ini of a scene's name is for; None: it is for none."""
     settings = path.removesuffix(".pov") + ".ini"
     if not os.path.isfile(settings):
-        return []
+        return None
     with open(settings, encoding="latin-1") as file:
         text = file.read()
     first = re.search(r"^\s*Initial_Frame\s*=\s*(\d+)", text, re.MULTILINE | re.IGNORECASE)
     is_animation = re.search(r"^\s*Final_Frame\s*=", text, re.MULTILINE | re.IGNORECASE)
-    return [f"-Dframe_number={first.group(1) if first else 1}"] if is_animation else []
+    return (first.group(1) if first else "1") if is_animation else None
+
+
+def of_animation(path):
+    """What makes a scene the first frame of its animation."""
+    frame = first_frame(path)
+    return [] if frame is None else [f"-Dframe_number={frame}"]
+
+
+def frame_scene(path):
+    """The scene as that frame, for programs that are not told of it: a text that names its number."""
+    frame = first_frame(path)
+    with open(path, encoding="latin-1", newline="") as file:
+        text = file.read()
+    if frame is None or not re.search(r"\bframe_number\b", text):
+        return path
+    copy = os.path.join(os.path.dirname(path), "frame_of_" + os.path.basename(path))
+    with open(copy, "w", encoding="latin-1", newline="") as file:
+        file.write(re.sub(r"\bframe_number\b", frame, text))
+    return copy
 
 
 def read(scene, options, folders, known):
@@ -236,19 +255,19 @@ def judge_chance(record, still, folders):
     """What chance.py says of the scene as it is; `still` is the same without chance."""
     with tempfile.TemporaryDirectory() as folder:
         try:
-            if chance.has_lens(record["path"]):
-                lens = chance.lens_error(record["path"], folder, folders, SIZE)
+            if chance.has_lens(record["drawn"]):
+                lens = chance.lens_error(record["drawn"], folder, folders, SIZE)
                 return {"like": abs(lens) <= chance.LENS_BAR, "lens": lens}
             apart = chance.pixels_apart(still, folder, folders, SIZE)
-            return chance.judge(chance.draw_rtlang(record["path"], folder, folders, SIZE, apart=apart),
-                                chance.draw_povray(record["path"], folder, folders, SIZE, apart=apart))
+            return chance.judge(chance.draw_rtlang(record["drawn"], folder, folders, SIZE, apart=apart),
+                                chance.draw_povray(record["drawn"], folder, folders, SIZE, apart=apart))
         except pictures.RunFailed as failure:
             return {"like": False, "failed": str(failure)}
 
 
 def compare(path, options, folders):
     """What rtcheck says of a scene."""
-    command = [os.environ["RTCHECK"], "--json", "-j1", f"-W{SIZE[0]}", f"-H{SIZE[1]}",
+    command = [os.environ["RTCHECK"], "--json", "-j1", "--allow-write=.", f"-W{SIZE[0]}", f"-H{SIZE[1]}",
                f"--elsewhere={ELSEWHERE}", *(f"-I{place}" for place in folders)]
     done = call(command, path, options.timeout * (ELSEWHERE + 2))
     if not done:
@@ -260,7 +279,7 @@ def compare(path, options, folders):
 def render(record, options, folders):
     """Adds what rtcheck says of an accepted scene; of one with chance, of the scene without it, and what means say. An
     include file is read for chance where pictures differ: most scenes use little of one."""
-    path = record["path"]
+    path = record["drawn"] = frame_scene(record["path"])
     record["without_chance"] = still_text(path) is not None
     if not record["without_chance"]:
         record["picture"] = compare(path, options, folders)
@@ -332,7 +351,9 @@ def write_table(records, path):
 def verdict(record):
     """Whether a scene that was compared meets the bar."""
     picture, by_chance = record["picture"], record.get("chance", {})
-    if not picture["agrees"] or not by_chance.get("like", True):
+    if not picture["agrees"]:
+        return LARGER if picture.get("larger", picture["pixels"]) <= pictures.TIE_SHARE * picture["pixels"] else MISSES
+    if not by_chance.get("like", True):
         return MISSES
     return BUT_FOR if picture["not_elsewhere"] > 0 else MEETS
 
@@ -350,6 +371,7 @@ def print_pictures(records):
     verdicts = collections.Counter(verdict(record) for record in judged)
     print(f"{verdicts[MEETS]:6}  {MEETS}: within 2 of 65535 in all but 0.01 % of their pixels")
     print(f"{verdicts[BUT_FOR]:6}  {BUT_FOR}: but for at most 0.1 % that change with a billionth of a pixel or with the scene's size")
+    print(f"{verdicts[LARGER]:6}  {LARGER}: POV-Ray's own lengths, but for 0.01 % of the pixels, are what is seen")
     print(f"{verdicts[MISSES]:6}  {MISSES}")
     drawn_by_chance = [record["chance"] for record in judged if "chance" in record]
     lenses = sum("lens" in each for each in drawn_by_chance)
@@ -393,6 +415,7 @@ def main():
         records = survey(options, paths, {"top": top})
     for record in records:
         record.pop("path")
+        record.pop("drawn", None)
         detail = f" {record['where']}: {record['blockers'][0]}" if record["blockers"] else ""
         print(f"{record['scene']}: {record['outcome']}{detail}")
     print_tables(records)
