@@ -501,7 +501,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
         if (csg->primitive_count > 0) {
             add_item(table, work, table->primitive_count + i, root);
         }
-        if (!csg_parts_init(table, csg, work->solids, threads, work->cancel)) {
+        if (!csg_parts_init(table, csg, work->solids, work->nodes, threads, work->cancel)) {
             return false;
         }
     }
