@@ -94,6 +94,14 @@ void polynomial_part(const Numbers *list, Primitive *primitive)
     primitive->list = *list;
 }
 
+// Squares that are added make it so, and the form of what has a box as a quadric.
+bool polynomial_is_convex(const double *list)
+{
+    const double *c = polynomial_terms(list);
+    bool is_sum = c[1] == 0.0 && c[2] == 0.0 && c[5] == 0.0 && c[0] >= 0.0 && c[4] >= 0.0 && c[7] >= 0.0;
+    return polynomial_order(list) == 2 && (is_sum || polynomial_is_bounded(list));
+}
+
 bool polynomial_is_constant(const double *list)
 {
     const double *sizes = polynomial_sizes(list);

@@ -60,6 +60,9 @@ bool polynomial_is_constant(const double *list);
 // but ellipsoids and of what the terms of an even order of at most 8 close (polynomial_box.c).
 bool polynomial_box(const double *list, Vec3 *low, Vec3 *high);
 
+// Whether the inside of a quadric is certainly convex.
+bool polynomial_is_convex(const double *list);
+
 double polynomial_value(const double *list, Vec3 p);
 Vec3 polynomial_gradient(const double *list, Vec3 p);
 

@@ -246,6 +246,14 @@ static void contract_nodes(const ShapeTable *table, const CsgTree *csg, const Bo
     }
 }
 
+// More than rounding, and than coefficients that were left out.
+static Bounds with_slack(const Bounds *box)
+{
+    double slack = SLACK * fmax(vec3_max_abs(box->low), vec3_max_abs(box->high));
+    Vec3 margin = vec3(slack, slack, slack);
+    return (Bounds){vec3_sub(box->low, margin), vec3_add(box->high, margin)};
+}
+
 // Makes the box in the scene's space of what is seen smaller, if it can.
 static void measure_in(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, const Frame *frame,
                        Bounds *inner, Bounds *next, Bounds *bounds)
@@ -261,10 +269,24 @@ static void measure_in(const ShapeTable *table, const CsgTree *csg, const Bounds
     if (!bounds_are_finite(*box) || bounds_are_empty(*box)) {
         return;
     }
-    double slack = SLACK * fmax(vec3_max_abs(box->low), vec3_max_abs(box->high));
-    Vec3 margin = vec3(slack, slack, slack);
-    Bounds larger = {vec3_sub(box->low, margin), vec3_add(box->high, margin)};
+    Bounds larger = with_slack(box);
     *bounds = bounds_meet(*bounds, box_through(&frame->to_world, frame->centre, &larger));
+}
+
+// In the spaces of its quadrics, until there is a finite box.
+static void measure_in_frames(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *inner,
+                              Bounds *next, Bounds *bounds)
+{
+    int tried = 0;
+    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count && tried < FRAMES_MOST;
+         i++) {
+        const PreparedPrimitive *primitive = &table->primitives[i];
+        if (!bounds_are_finite(*bounds) && is_quadric(primitive) && !bounds_are_finite(surfaces[i])) {
+            Frame frame = {primitive->centre, primitive->to_object, primitive->to_world};
+            measure_in(table, csg, surfaces, &frame, inner, next, bounds);
+            tried++;
+        }
+    }
 }
 
 Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds bounds, Bounds *inner,
@@ -273,15 +295,16 @@ Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
     const Linear same = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     Frame frame = {vec3(0.0, 0.0, 0.0), same, same};
     measure_in(table, csg, surfaces, &frame, inner, next, &bounds);
-    int tried = 0;
-    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count && tried < FRAMES_MOST;
-         i++) {
-        const PreparedPrimitive *primitive = &table->primitives[i];
-        if (!bounds_are_finite(bounds) && is_quadric(primitive) && !bounds_are_finite(surfaces[i])) {
-            frame = (Frame){primitive->centre, primitive->to_object, primitive->to_world};
-            measure_in(table, csg, surfaces, &frame, inner, next, &bounds);
-            tried++;
-        }
+    for (uint32_t i = csg->first_node; i < csg->first_node + csg->node_count; i++) {
+        bool is_known = bounds_are_finite(bounds) && bounds_are_finite(inner[i]) && !bounds_are_empty(inner[i]);
+        inner[i] = is_known ? with_slack(&inner[i]) : BOUNDS_ALL;
+    }
+    if (bounds_are_finite(bounds)) {
+        return bounds;
+    }
+    measure_in_frames(table, csg, surfaces, inner, next, &bounds);
+    for (uint32_t i = csg->first_node; i < csg->first_node + csg->node_count; i++) {
+        inner[i] = BOUNDS_ALL;
     }
     return bounds;
 }

@@ -8,7 +8,8 @@
 #include "trace/shapes.h"
 
 // A box that holds what may be seen of the composite and lies within `bounds`, which holds it, too. `surfaces`: the
-// boxes of all primitives' surfaces; `inner` and `next` have room for a box of each of the table's nodes.
+// boxes of all primitives' surfaces; `inner` and `next` have room for a box of each of the table's nodes. In `inner`
+// what holds all of a node that may matter to what is seen.
 Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds bounds, Bounds *inner,
                   Bounds *next);
 

@@ -7,30 +7,42 @@
 
 #include "trace/bvh_walk.h"
 
-static bool is_leaf(const ShapeTable *table, const Bounds *surfaces, uint32_t index)
+// What a composite's boxes are taken from, see csg_parts_init.
+typedef struct Boxes {
+    const ShapeTable *table;
+    const CsgTree *csg;
+    const Bounds *surfaces, *nodes;
+} Boxes;
+
+// Whether a primitive is a leaf, and its box: that of its surface, or, where it has none, of its node if that is below
+// the root: outside of it nobody asks whether a ray is inside of the primitive.
+static bool leaf_box(const Boxes *of, uint32_t index, Bounds *box)
 {
-    const PreparedPrimitive *primitive = &table->primitives[index];
-    return !primitive->decides && !primitive_is_mesh(primitive) && bounds_are_finite(surfaces[index]);
+    const PreparedPrimitive *primitive = &of->table->primitives[of->csg->first_primitive + index];
+    *box = of->surfaces[of->csg->first_primitive + index];
+    if (!bounds_are_finite(*box) && primitive->node != of->csg->first_node) {
+        *box = of->nodes[primitive->node];
+    }
+    return !primitive->decides && !primitive_is_mesh(primitive) && bounds_are_finite(*box);
 }
 
 // Places the leaves' boxes and builds the tree of them; `refs` has room for all.
-static bool build(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, CsgPrimitives *parts,
-                  BvhRef *refs, int threads, const atomic_bool *cancel)
+static bool build(const Boxes *of, CsgPrimitives *parts, BvhRef *refs, int threads, const atomic_bool *cancel)
 {
-    Bounds all = BOUNDS_NONE;
+    const CsgTree *csg = of->csg;
+    Bounds all = BOUNDS_NONE, own;
     uint32_t count = 0;
     for (uint32_t i = 0; i < csg->primitive_count; i++) {
-        if (is_leaf(table, surfaces, csg->first_primitive + i)) {
-            all = bounds_join(all, surfaces[csg->first_primitive + i]);
+        if (leaf_box(of, i, &own)) {
+            all = bounds_join(all, own);
         } else {
             parts->loose[parts->loose_count++] = i;
         }
     }
     bvh_place(&parts->tree, all.low, all.high);
     for (uint32_t i = 0; i < csg->primitive_count; i++) {
-        const Bounds *own = &surfaces[csg->first_primitive + i];
-        if (is_leaf(table, surfaces, csg->first_primitive + i)) {
-            refs[count++] = bvh_ref(&parts->tree, own->low, own->high, i);
+        if (leaf_box(of, i, &own)) {
+            refs[count++] = bvh_ref(&parts->tree, own.low, own.high, i);
             parts->are_leaves_unseen = parts->are_leaves_unseen && i >= csg->seen_count;
         }
     }
@@ -58,12 +70,14 @@ static uint32_t joined_by(const ShapeTable *table, const CsgTree *csg)
     return is_joined ? at : NODE_NONE;
 }
 
-bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads,
+bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, const Bounds *nodes, int threads,
                     const atomic_bool *cancel)
 {
+    const Boxes of = {table, csg, surfaces, nodes};
     uint32_t count = 0;
-    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count; i++) {
-        count += is_leaf(table, surfaces, i);
+    for (uint32_t i = 0; i < csg->primitive_count; i++) {
+        Bounds box;
+        count += leaf_box(&of, i, &box);
     }
     if (csg->is_plain || count < CSG_PRIMITIVES_LEAST) {
         return true;
@@ -78,7 +92,7 @@ bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surface
     parts->leaves = numbers;
     parts->loose = numbers + count;
     parts->are_leaves_unseen = true;
-    bool done = build(table, csg, surfaces, parts, pages.memory, threads, cancel);
+    bool done = build(&of, parts, pages.memory, threads, cancel);
     parts->joined = done ? joined_by(table, csg) : NODE_NONE;
     pages_give(&pages);
     return done;

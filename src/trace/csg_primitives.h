@@ -23,9 +23,10 @@ struct CsgPrimitives {
     uint32_t joined; // the node of which they, convex and unseen, are all children, and which joins them; NODE_NONE
 };
 
-// Sorts the primitives of a composite, whose surfaces' boxes are given by solid. Leaves it without a tree where that is
-// not worth it, or where the intervals of all its parts tell what is seen. False when out of memory or cancelled.
-bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, int threads,
+// Sorts the primitives of a composite, whose surfaces' boxes are given by solid, and those of what matters of its nodes
+// (csg_bounds) by node. Leaves it without a tree where that is not worth it, or where the intervals of all its parts
+// tell what is seen. False when out of memory or cancelled.
+bool csg_parts_init(const ShapeTable *table, CsgTree *csg, const Bounds *surfaces, const Bounds *nodes, int threads,
                     const atomic_bool *cancel) RT_MUST_CHECK;
 void csg_parts_fini(CsgTree *csg);
 size_t csg_parts_bytes(const CsgTree *csg);

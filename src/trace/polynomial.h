@@ -9,13 +9,14 @@
 #include "math/ray.h"
 #include "trace/ray_interval.h"
 
-// The intervals of the line where the polynomial is less than 0, in order: order / 2 + 1 at most. Returns how many.
-unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left, RayInterval *intervals);
+// The intervals of the line where the polynomial is less than 0, in order, `most` at most: there are order / 2 + 1 or
+// less, of a convex quadric one. Returns how many.
+unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left, unsigned most, RayInterval *intervals);
 
 // The same, but crossings that surely lie before `low` or behind `high` may be left out. What is inside there has no
 // end. The ends are not less than 0.
 unsigned polynomial_intervals_within(const double *list, const Ray *ray, SideLeft left, double low, double high,
-                                     RayInterval *intervals);
+                                     unsigned most, RayInterval *intervals);
 
 // Out of what is inside, at most 4 long; where the surface has no normal, along x.
 Vec3 polynomial_slope(const double *list, Vec3 point);

@@ -79,4 +79,25 @@ RT_ALWAYS_INLINE void compose_of(const double *list, const LINE_REAL base[3], co
     }
 }
 
+// A quadric along o + t d, for the greatest coordinates `far` of o and `step` of d: its discriminant, and how much
+// rounding may make of that. Where it is less than minus that, the line surely has no root: most lines pass most
+// surfaces by. *value: at o.
+RT_ALWAYS_INLINE LINE_REAL quadric_discriminant(const double *list, const LINE_REAL o[3], const LINE_REAL d[3],
+                                                LINE_REAL far, LINE_REAL step, LINE_REAL *value, LINE_REAL *rounding)
+{
+    const double *c = polynomial_terms(list), *sizes = polynomial_sizes(list);
+    const LINE_REAL slope[3] = {2.0 * c[0] * d[0] + c[1] * d[1] + c[2] * d[2],
+                                c[1] * d[0] + 2.0 * c[4] * d[1] + c[5] * d[2],
+                                c[2] * d[0] + c[5] * d[1] + 2.0 * c[7] * d[2]};
+    *value = (c[0] * o[0] + c[1] * o[1] + c[2] * o[2] + c[3]) * o[0] + (c[4] * o[1] + c[5] * o[2] + c[6]) * o[1] +
+             (c[7] * o[2] + c[8]) * o[2] + c[9];
+    LINE_REAL a = d[0] * slope[0] + d[1] * slope[1] + d[2] * slope[2];
+    LINE_REAL b = o[0] * slope[0] + o[1] * slope[1] + o[2] * slope[2] + (c[3] * d[0] + c[6] * d[1] + c[8] * d[2]);
+    LINE_REAL most = 2.0 * sizes[2] * far + sizes[1], all = (sizes[2] * far + sizes[1]) * far + sizes[0];
+    *rounding = 0x1p-44 * step * step * (most * most + 4.0 * sizes[2] * all);
+    return b * b - 2.0 * a * *value;
+}
+
+#define QUADRIC_ROUNDING_LEAST 0x1p-940 // below it something may have underflowed
+
 #endif

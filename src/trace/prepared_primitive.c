@@ -267,16 +267,22 @@ static void torus_axes(const PreparedPrimitive *primitive, Vec3 axes[3], Vec3 *m
 
 // ---- polynomial
 
+static unsigned polynomial_most(const PreparedPrimitive *primitive)
+{
+    return primitive_is_convex(primitive) ? 1 : primitive->interval_most;
+}
+
 static unsigned polynomial_side_intervals(const PreparedPrimitive *primitive, const Ray *object, SideLeft left,
                                           RayInterval *intervals)
 {
-    return polynomial_intervals(primitive->list.items, object, left, intervals);
+    return polynomial_intervals(primitive->list.items, object, left, polynomial_most(primitive), intervals);
 }
 
 static unsigned polynomial_side_within(const PreparedPrimitive *primitive, const Ray *object, SideLeft left, double low,
                                        double high, RayInterval *intervals)
 {
-    return polynomial_intervals_within(primitive->list.items, object, left, low, high, intervals);
+    return polynomial_intervals_within(primitive->list.items, object, left, low, high, polynomial_most(primitive),
+                                       intervals);
 }
 
 static Vec3 polynomial_side_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side)

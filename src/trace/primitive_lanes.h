@@ -310,6 +310,21 @@ RT_ALWAYS_INLINE bool primitive_lanes(const LanePrimitive *own, PrimitiveKind ki
     }
 }
 
+RT_ALWAYS_INLINE Doubles lanes_max_abs(const Doubles v[3])
+{
+    return doubles_max(doubles_max(doubles_abs(v[0]), doubles_abs(v[1])), doubles_abs(v[2]));
+}
+
+// Those of some rays that may meet a quadric, in whose space `f` and `d` are.
+RT_ALWAYS_INLINE unsigned quadric_lanes_possible(const PreparedPrimitive *primitive, const Doubles f[3],
+                                                 const Doubles d[3])
+{
+    Doubles value, rounding;
+    Doubles discriminant =
+        quadric_discriminant(primitive->list.items, f, d, lanes_max_abs(f), lanes_max_abs(d), &value, &rounding);
+    return ~doubles_mask_bits((rounding > QUADRIC_ROUNDING_LEAST) & (discriminant < -rounding));
+}
+
 // ---- boxes
 
 // item_enters of some rays: those that meet the box, and where.

@@ -65,7 +65,7 @@ typedef struct CsgTree {
 
 // What stands for itself: a primitive, or a CSG tree when the number is not below primitive_count, or behind those a
 // cluster of such items; of a primitive that has a test in lanes with a bit that tells it, so that nobody need look at
-// it.
+// it. One without a box has the bit only if it is a quadric.
 typedef uint32_t ShapeItem;
 #define ITEM_LANES 0x80000000u
 
@@ -100,10 +100,17 @@ static inline bool primitive_is_curve(const PreparedPrimitive *primitive)
     }
 }
 
+// Of quadrics the test in lanes tells which rays miss them, and no more.
+static inline bool primitive_is_quadric(const PreparedPrimitive *primitive)
+{
+    return primitive->kind == PRIMITIVE_POLYNOMIAL && polynomial_order(primitive->list.items) == 2;
+}
+
 static inline bool primitive_has_lanes(const PreparedPrimitive *primitive)
 {
-    return kind_is_curve((PrimitiveKind)primitive->kind) ? primitive_is_curve(primitive)
-                                                         : kind_has_lanes((PrimitiveKind)primitive->kind);
+    return kind_is_curve((PrimitiveKind)primitive->kind)
+               ? primitive_is_curve(primitive) || primitive_is_quadric(primitive)
+               : kind_has_lanes((PrimitiveKind)primitive->kind);
 }
 
 // The box of an item as its leaf has it: in the tree's coordinates, rounded outward.

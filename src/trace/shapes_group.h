@@ -148,6 +148,21 @@ RT_ALWAYS_INLINE uint64_t group_primitive_kind(const ShapeGroup *from, const Ray
     return occluded;
 }
 
+// Those of some rays that may meet a quadric.
+static uint64_t group_quadric(const ShapeGroup *from, const RayGroup *group, const PreparedPrimitive *primitive,
+                              uint64_t occluded)
+{
+    LanePrimitive own;
+    uint64_t may = 0;
+    lane_primitive_set(&own, primitive, from->far);
+    for (unsigned at = 0; at < group->whole; at += DOUBLES) {
+        Doubles f[3], d[3];
+        lane_primitive_ray(&own, group->origin, group->direction, at, f, d);
+        may |= (uint64_t)(quadric_lanes_possible(primitive, f, d) & ((1u << DOUBLES) - 1)) << at;
+    }
+    return may & ~occluded;
+}
+
 static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, const PreparedPrimitive *primitive,
                                 const ItemBox *box, uint64_t occluded, uint64_t *may)
 {
@@ -157,8 +172,13 @@ static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, c
          (primitive_is_flat(primitive) || (!primitive->flips && primitive_is_convex(primitive))))) {
         return occluded;
     }
-    if (primitive == from->left && primitive->flips && !primitive_is_convex(primitive)) {
-        *may = ~occluded; // they go in
+    if (primitive == from->left &&
+        (primitive_is_quadric(primitive) || (primitive->flips && !primitive_is_convex(primitive)))) {
+        *may = ~occluded; // they go in, or may meet it again
+        return occluded;
+    }
+    if (primitive_is_quadric(primitive)) {
+        *may = group_quadric(from, group, primitive, occluded);
         return occluded;
     }
     switch (primitive->kind) {
@@ -181,6 +201,21 @@ static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, c
     }
 }
 
+// Those that an item is in the way of, whose box may be NULL.
+static uint64_t group_item_at(const ShapeGroup *from, const RayGroup *group, ShapeItem item, const ItemBox *box,
+                              uint64_t occluded)
+{
+    uint64_t may = ~occluded;
+    if (item & ITEM_LANES) {
+        occluded = group_primitive(from, group, &from->table->primitives[item_index(item)], box, occluded, &may);
+    }
+    for (; may; may &= may - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(may);
+        occluded |= (uint64_t)group_ray_meets(from, group, i, item, box) << i;
+    }
+    return occluded;
+}
+
 // What is in a leaf; see GroupLeaf.
 static uint64_t group_item(const void *context, const RayGroup *group, const RayCone *cone, uint32_t leaf,
                            uint64_t occluded)
@@ -188,18 +223,8 @@ static uint64_t group_item(const void *context, const RayGroup *group, const Ray
     const ShapeGroup *from = context;
     const ShapeTable *table = from->table;
     uint32_t at = bvh_leaf_first(leaf);
-    ShapeItem item = table->items[table->unbounded_count + at];
-    uint64_t may = ~occluded;
     (void)cone;
-    if (item & ITEM_LANES) {
-        occluded =
-            group_primitive(from, group, &table->primitives[item_index(item)], &table->boxes[at], occluded, &may);
-    }
-    for (; may; may &= may - 1) {
-        unsigned i = (unsigned)__builtin_ctzll(may);
-        occluded |= (uint64_t)group_ray_meets(from, group, i, item, &table->boxes[at]) << i;
-    }
-    return occluded;
+    return group_item_at(from, group, table->items[table->unbounded_count + at], &table->boxes[at], occluded);
 }
 
 // Those of the group that something is before; false when they cannot be traced together.
@@ -210,11 +235,8 @@ static bool shape_group_occluded(ShapeGroup *from, const RayGroup *group, uint64
     uint64_t none = group_none(group);
     group_set_passed(from, group);
     *occluded = none;
-    for (uint32_t item = 0; item < table->unbounded_count; item++) {
-        for (uint64_t open = ~*occluded; open; open &= open - 1) {
-            unsigned i = (unsigned)__builtin_ctzll(open);
-            *occluded |= (uint64_t)group_ray_meets(from, group, i, table->items[item], NULL) << i;
-        }
+    for (uint32_t i = 0; i < table->unbounded_count; i++) {
+        *occluded = group_item_at(from, group, table->items[i], NULL, *occluded);
     }
     if (table->bounded_count > 0 && ~*occluded && !group_tree(&tree, group, NULL, occluded)) {
         return false;

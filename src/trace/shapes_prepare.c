@@ -22,15 +22,21 @@ static double times_power(double x, int exponent, double power)
     return RT_LIKELY(isfinite(power)) ? x * power : ldexp(x, exponent);
 }
 
+static bool is_convex(const Primitive *primitive, const PrimitiveClass *class)
+{
+    return primitive->kind == PRIMITIVE_POLYNOMIAL ? polynomial_is_convex(primitive->list.items)
+                                                   : class->interval_count <= 1 && !class->is_mesh;
+}
+
 static PreparedPrimitive primitive_of(const Primitive *primitive, int exponent, double down, double up)
 {
     const PrimitiveClass *class = primitive_class(primitive->kind);
     PreparedPrimitive prepared = {
         .kind = (uint8_t)primitive->kind,
         .family = (uint8_t) class->family,
-        .traits = (uint8_t)((class->interval_count == 0 ? TRAIT_FLAT : 0) |
-                            (class->interval_count <= 1 && !class->is_mesh ? TRAIT_CONVEX : 0) |
-                            (class->is_sized ? TRAIT_SIZED : 0) | (class->is_mesh ? TRAIT_MESH : 0)),
+        .traits =
+            (uint8_t)((class->interval_count == 0 ? TRAIT_FLAT : 0) | (is_convex(primitive, class) ? TRAIT_CONVEX : 0) |
+                      (class->is_sized ? TRAIT_SIZED : 0) | (class->is_mesh ? TRAIT_MESH : 0)),
         .flags = primitive->flags,
         .hidden = primitive->hidden,
         .flips = primitive->flags & PRIMITIVE_INVERSE,
@@ -280,6 +286,13 @@ static const Bounds *item_bounds(const ShapeTable *table, const Work *work, Shap
                                           : &work->clusters[tree - table->csg_count];
 }
 
+// Of those only quadrics are asked in lanes.
+static void add_unbounded(ShapeTable *table, ShapeItem item)
+{
+    bool has_lanes = (item & ITEM_LANES) && primitive_is_quadric(&table->primitives[item_index(item)]);
+    table->items[table->unbounded_count++] = has_lanes ? item : item_index(item);
+}
+
 static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds *bounds)
 {
     if (bounds_are_empty(*bounds)) {
@@ -288,7 +301,7 @@ static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds
     if (bounds_are_finite(*bounds)) {
         work->bounded[table->bounded_count++] = item;
     } else {
-        table->items[table->unbounded_count++] = item;
+        add_unbounded(table, item);
     }
 }
 
@@ -353,7 +366,7 @@ static void part_with_far(ShapeTable *table, Work *work)
     for (uint32_t i = 0; i < table->bounded_count; i++) {
         ShapeItem item = work->bounded[i];
         if (bounds_reach(item_bounds(table, work, item), middle) > limit) {
-            table->items[table->unbounded_count++] = item;
+            add_unbounded(table, item);
         } else {
             work->bounded[kept++] = item;
         }
@@ -488,7 +501,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
         if (csg->primitive_count > 0) {
             add_item(table, work, table->primitive_count + i, root);
         }
-        if (!csg_parts_init(table, csg, work->solids, threads, work->cancel)) {
+        if (!csg_parts_init(table, csg, work->solids, work->nodes, threads, work->cancel)) {
             return false;
         }
     }

@@ -28,6 +28,7 @@ typedef struct ShapeQuery {
         *bounded;         // the primitive that is the first, where its hit's span is only bounded; NULL: no such
     double bounded_enter; // where the ray enters its box
     uint32_t at;          // of the item that was asked last among all
+    uint32_t known;       // of one that the ray does not meet; NO_BLOCKER: none is known
     const ItemBox *box;   // of the item that is asked; NULL: it has none
     const Bvh *tree;      // that the box is in
     BoxLine line;

@@ -233,11 +233,33 @@ RT_ALWAYS_INLINE void tile_primitive_kind(ShapesTile *of, const PreparedPrimitiv
     }
 }
 
-// No ray meets the box before `nearest`.
+// A quadric is asked by the rays that may meet it.
+static void tile_quadric(ShapesTile *of, const PreparedPrimitive *primitive, const ItemBox *box, uint64_t may)
+{
+    Vec3 own = linear_direction(&primitive->to_object, vec3_sub(of->tile->origin, primitive->centre));
+    const Doubles f[3] = {doubles_splat(own.x), doubles_splat(own.y), doubles_splat(own.z)};
+    Linears to_object;
+    linears_splat(&primitive->to_object, &to_object);
+    for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
+        Doubles direction[3], d[3];
+        lanes_load(of->tile->direction, at, direction);
+        linears_direction(&to_object, direction, d);
+        unsigned asked = may >> at & quadric_lanes_possible(primitive, f, d) & ((1u << DOUBLES) - 1);
+        for (; asked; asked &= asked - 1) {
+            tile_ray(of, at + (unsigned)__builtin_ctz(asked), (uint32_t)(primitive - of->table->primitives), box, NULL);
+        }
+    }
+}
+
+// No ray meets the box, if there is one, before `nearest`.
 static void tile_primitive(ShapesTile *of, const PreparedPrimitive *primitive, const ItemBox *box, double nearest)
 {
     uint64_t may = tile_open_rays(of->first, nearest) & of->walking;
     if ((primitive->hidden & HIDDEN_CAMERA) || !may) {
+        return;
+    }
+    if (primitive_is_quadric(primitive)) {
+        tile_quadric(of, primitive, box, may);
         return;
     }
     switch (primitive->kind) {
@@ -369,7 +391,7 @@ static bool tile_tree(ShapesTile *of)
     DirectionRange range;
     of->others.count = of->others.node_count = 0;
     if (of->table->tree.node_count == 0) {
-        return false;
+        return of->table->bounded_count == 0;
     }
     direction_range(of->tile->direction, TILE_RAYS, &range);
     for (unsigned octant = 0; octant < OCTANTS && direction_range_is_narrow(&range); octant++) {
@@ -414,6 +436,21 @@ static void tile_refine_roots(ShapesTile *of)
     }
 }
 
+// Asks the items without a box that have a test in lanes. Whether there are others.
+static bool tile_unbounded(ShapesTile *of)
+{
+    bool are_all = true;
+    for (uint32_t i = 0; i < of->table->unbounded_count; i++) {
+        ShapeItem item = of->table->items[i];
+        if (item & ITEM_LANES) {
+            tile_primitive(of, &of->table->primitives[item_index(item)], NULL, 0.0);
+        } else {
+            are_all = false;
+        }
+    }
+    return !are_all;
+}
+
 static void shapes_closest_tile(const ShapeTable *table, const SphereTile *tile, TileForemost *first)
 {
     ShapesTile of; // not cleared as a whole
@@ -430,7 +467,8 @@ static void shapes_closest_tile(const ShapeTable *table, const SphereTile *tile,
         of.enter[i] = 0.0;
     }
     bool is_walked = tile_tree(&of);
-    for (unsigned i = 0; i < TILE_RAYS && (!is_walked || table->unbounded_count + of.others.count > 0); i++) {
+    bool are_left = !is_walked || tile_unbounded(&of) || of.others.count > 0;
+    for (unsigned i = 0; i < TILE_RAYS && are_left; i++) {
         tile_ray(&of, i, SOLID_NONE, NULL, is_walked ? &of.others : NULL);
     }
     tile_refine_roots(&of);

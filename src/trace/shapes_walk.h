@@ -465,7 +465,7 @@ typedef struct ShapeBeam {
     BvhNode nodes[SHAPE_BEAM_NODES];
 } ShapeBeam;
 
-// All items, or, of those of the tree, only a beam's, if there is one.
+// All items, or, where there is a beam, those without a test in lanes: of those of the tree the beam's.
 // A leaf is looked into up to the limit, where rounding cannot tell whether what it holds is the first.
 static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
 {
@@ -473,6 +473,9 @@ static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
     BvhWalk walk;
     BvhChild leaf;
     for (uint32_t i = 0; i < table->unbounded_count; i++) {
+        if ((beam && (table->items[i] & ITEM_LANES)) || i == q->known) {
+            continue;
+        }
         q->at = i;
         item_closest(q, table->items[i], first);
         if (q->is_any && first->hit.shape != SHAPE_NONE) {
@@ -492,6 +495,9 @@ static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
     while (bvh_walk_next(&walk, bvh_walk_limit(&walk, first->limit), &leaf)) {
         uint32_t at = bvh_leaf_first(leaf);
         q->at = table->unbounded_count + at;
+        if (q->at == q->known) {
+            continue;
+        }
         q->box = &table->boxes[at];
         item_closest(q, bounded[at], first);
         if (q->is_any && first->hit.shape != SHAPE_NONE) {
@@ -511,6 +517,7 @@ static void query_start(ShapeQuery *q, const ShapeTable *table, const Ray *ray, 
     q->start_error = start_error;
     q->left = starts_on_primitive(start) ? table_primitive(table, start.shape) : NULL;
     q->is_any = is_any;
+    q->known = NO_BLOCKER;
     q->bounded = NULL;
     q->box = NULL;
     q->tree = &table->tree;
@@ -529,6 +536,7 @@ static bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart st
 {
     ShapeQuery q;
     query_start(&q, table, ray, start, start_error, true);
+    q.known = *blocker;
     Foremost first = foremost_start(&(Hit){t_max, SHAPE_NONE, false}, 0, t_max);
     table_closest(&q, NULL, &first);
     *blocker = first.hit.shape != SHAPE_NONE ? q.at : *blocker;

@@ -193,7 +193,7 @@ typedef struct SphereKernels {
     // The same for all rays of a tile, of the camera.
     void (*shapes_closest_tile)(const ShapeTable *shapes, const SphereTile *tile, TileForemost *first);
     // True when any of them is met at 0 < t < t_max.
-    // In *blocker what was met, if any was.
+    // In *blocker what was met, if any was; what is there before, unless it is NO_BLOCKER, is known not to be.
     bool (*shapes_occluded)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error, double t_max,
                             uint32_t *blocker);
     // The same of that alone.

@@ -116,7 +116,7 @@ static void check(Surface *surface, const Ray *ray, Outcome *outcome)
 {
     RayInterval intervals[ORDER_MOST];
     double own[2 * ORDER_MOST];
-    unsigned count = polynomial_intervals(surface->list, ray, LEFT_NONE, intervals), roots_count = 0;
+    unsigned count = polynomial_intervals(surface->list, ray, LEFT_NONE, ORDER_MOST, intervals), roots_count = 0;
     for (unsigned i = 0; i < count; i++) {
         if (!isinf(intervals[i].enter)) {
             own[roots_count++] = intervals[i].enter;
@@ -281,8 +281,8 @@ static void test_from_surface(unsigned order, double size, uint64_t seed)
         bool inward = vec3_dot(d, n) < 0.0;
         RayInterval intervals[ORDER_MOST], whole[ORDER_MOST];
         Ray ray = {on, d}, before = {vec3_add_scaled(on, -8.0 * size, d), d};
-        unsigned count = polynomial_intervals(surface.list, &ray, (SideLeft){0, inward}, intervals);
-        unsigned whole_count = polynomial_intervals(surface.list, &before, LEFT_NONE, whole), behind = 0;
+        unsigned count = polynomial_intervals(surface.list, &ray, (SideLeft){0, inward}, ORDER_MOST, intervals);
+        unsigned whole_count = polynomial_intervals(surface.list, &before, LEFT_NONE, ORDER_MOST, whole), behind = 0;
         double limit = 1e-4 * size;
         unsigned near = 0;
         for (unsigned k = 0; k < whole_count; k++) {
@@ -345,11 +345,11 @@ static void test_within(unsigned order, double size, bool starts, uint64_t seed)
         double all[2 * ORDER_MOST], some[2 * ORDER_MOST];
         unsigned all_count, some_count;
         bool all_inside, some_inside;
-        unsigned count = polynomial_intervals(surface.list, &ray, left, whole);
+        unsigned count = polynomial_intervals(surface.list, &ray, left, ORDER_MOST, whole);
         if (!crossings_within(whole, count, low, high, all, &all_count, &all_inside)) {
             continue;
         }
-        count = polynomial_intervals_within(surface.list, &ray, left, low, high, part);
+        count = polynomial_intervals_within(surface.list, &ray, left, low, high, ORDER_MOST, part);
         crossings_within(part, count, low, high, some, &some_count, &some_inside);
         rays++;
         met += all_count > 0;
