@@ -13,6 +13,8 @@
 
 #include "trace/cone.h"
 #include "trace/curve_lanes.h"
+#include "trace/prism.h"
+#include "trace/prism_lanes.h"
 #include "trace/shapes.h"
 #include "trace/simd.h"
 
@@ -287,6 +289,26 @@ RT_ALWAYS_INLINE bool cone_lanes(const LanePrimitive *own, const Doubles f[3], c
     return interval_lanes_first(own, &interval, asked, lanes);
 }
 
+// What prism_intervals finds first, where a ray comes in at an end of the prism.
+RT_ALWAYS_INLINE bool prism_lanes(const LanePrimitive *own, const Doubles f[3], const Doubles d[3], unsigned asked,
+                                  PrimitiveLanes *lanes)
+{
+    IntervalLanes slab;
+    DoublesMask certain = ~(DoublesMask){0};
+    unsigned misses;
+    slab_lanes(f[1], d[1], own->solid->data[0].y, own->solid->data[1].y, PRISM_LOW, &slab, &certain);
+    asked &= ~doubles_mask_bits(certain & (slab.leave <= 0.0)); // all of it is behind
+    certain &= (slab.enter > 0.0) & (slab.enter < slab.leave) & (slab.leave < 0x1p900);
+    unsigned told = asked & doubles_mask_bits(certain);
+    lanes->certain = told ? prism_lanes_enter(own->solid, f, d, slab.enter, slab.leave, told, &misses) : 0;
+    lanes->possible = asked & ~(told ? told & misses : 0);
+    lanes->leaves = 0;
+    lanes->root = slab.enter;
+    lanes->side = slab.enter_side;
+    lanes->bound = (own->slack.fixed + own->slack.slope * slab.enter) / slab.enter_along;
+    return lanes->possible;
+}
+
 // smooth_normal of each, from the normals at the corners.
 RT_ALWAYS_INLINE void smooth_lanes(const Doubles corners[3][3], Doubles x, Doubles y, Doubles normal[3])
 {
@@ -383,6 +405,8 @@ RT_ALWAYS_INLINE bool primitive_lanes(const LanePrimitive *own, PrimitiveKind ki
         return curve_lanes(own, PRIMITIVE_TORUS, f, d, false, asked, lanes);
     case PRIMITIVE_POLYNOMIAL:
         return curve_lanes(own, PRIMITIVE_POLYNOMIAL, f, d, false, asked, lanes);
+    case PRIMITIVE_PRISM:
+        return prism_lanes(own, f, d, asked, lanes);
     case PRIMITIVE_BLOB:
         return curve_lanes(own, PRIMITIVE_BLOB, f, d, false, asked, lanes);
     default: return flat_lanes(own, kind, f, d, world, asked, lanes);

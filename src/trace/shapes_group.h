@@ -26,6 +26,12 @@ typedef struct ShapeGroup {
     double passed_curve[TILE_RAYS];
 } ShapeGroup;
 
+// Whether start_along knows it.
+static bool start_has_along(const PreparedPrimitive *left, uint8_t side)
+{
+    return kind_has_surface_lanes((PrimitiveKind)left->kind) || prepared_classes[left->kind].across[side] > 0;
+}
+
 // n·d where some rays start on a primitive's side, n being the gradient there.
 RT_ALWAYS_INLINE Doubles start_along(const PreparedPrimitive *left, uint8_t side, const Doubles f[3],
                                      const Doubles d[3])
@@ -60,7 +66,7 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
     }
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
-        if (has_lanes && left->kind != PRIMITIVE_POLYNOMIAL && left->kind != PRIMITIVE_BLOB) {
+        if (has_lanes && start_has_along(left, primitive_side(from->start.shape))) {
             Doubles f[3], d[3];
             lane_primitive_ray(&own, group->origin, group->direction, at, f, d);
             passed = own.slack.fixed / doubles_abs(start_along(left, primitive_side(from->start.shape), f, d));
@@ -162,8 +168,10 @@ static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, c
          (primitive_is_flat(primitive) || (!primitive->flips && primitive_is_convex(primitive))))) {
         return occluded;
     }
-    if (primitive == from->left && primitive->flips && !primitive_is_convex(primitive)) {
-        *may = ~occluded; // they go in
+    if (primitive == from->left && !primitive_is_convex(primitive) &&
+        (primitive->flips || primitive->kind == PRIMITIVE_PRISM)) {
+        bool is_gone = !primitive->flips && primitive_side(from->start.shape) != PRISM_WALL; // beyond its ends
+        *may = is_gone ? 0 : ~occluded;                                                      // they go in, or along
         return occluded;
     }
     switch (primitive->kind) {
@@ -181,6 +189,8 @@ static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, c
         return group_primitive_kind(from, group, primitive, PRIMITIVE_POLYNOMIAL, box, occluded, may);
     case PRIMITIVE_BLOB:
         return group_primitive_kind(from, group, primitive, PRIMITIVE_BLOB, box, occluded, may);
+    case PRIMITIVE_PRISM:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_PRISM, box, occluded, may);
     default:
         return group_primitive_kind(from, group, primitive, PRIMITIVE_TRIANGLE, box, occluded, may);
     }

@@ -267,6 +267,9 @@ static void tile_primitive(ShapesTile *of, const PreparedPrimitive *primitive, c
     case PRIMITIVE_BLOB:
         tile_primitive_kind(of, primitive, PRIMITIVE_BLOB, box, may);
         break;
+    case PRIMITIVE_PRISM:
+        tile_primitive_kind(of, primitive, PRIMITIVE_PRISM, box, may);
+        break;
     default:
         tile_primitive_kind(of, primitive, PRIMITIVE_SMOOTH_TRIANGLE, box, may);
     }
