@@ -14,11 +14,11 @@
 
 // The stretches in the outline's plane.
 typedef struct PrismLanes {
-    Doubles u, v;                    // where they begin
+    Doubles u, v;                         // where they begin
     Doubles low_u, low_v, high_u, high_v; // their boxes
-    Doubles a, b, c;                 // the lines that they are on, as an OutlineLine has them
-    Doubles from_u, from_v, by_u, by_v; // the rays' images
-    Doubles near;                    // t times the square of `by` up to which a crossing is near the beginning
+    Doubles a, b, c;                      // the lines that they are on, as an OutlineLine has them
+    Doubles from_u, from_v, by_u, by_v;   // the rays' images
+    Doubles near;                         // t times the square of `by` up to which a crossing is near the beginning
     DoublesMask is_inside, is_near, crosses;
 } PrismLanes;
 
@@ -77,8 +77,8 @@ RT_ALWAYS_INLINE void prism_lanes_cross(PrismLanes *of, const double *piece, uns
     of->is_near |= meets & ~(first > of->near);
 }
 
-// From where the planes of the ends are met, enter < leave, both ahead; *misses: for certain. Returns those that come in
-// where they enter.
+// From where the planes of the ends are met, enter < leave, both ahead; *misses: for certain. Returns those that come
+// in where they enter.
 static __attribute__((noinline)) unsigned prism_lanes_enter(const PreparedPrimitive *primitive, const Doubles *f,
                                                             const Doubles *d, Doubles enter, Doubles leave,
                                                             unsigned asked, unsigned *misses)
@@ -87,7 +87,8 @@ static __attribute__((noinline)) unsigned prism_lanes_enter(const PreparedPrimit
     const Vec3 low = primitive->fixed[0], high = primitive->fixed[1];
     const uint32_t stride = outline_stride(list), pieces = outline_piece_count(list);
     const unsigned points = outline_degree(list) + 1;
-    Doubles u = f[0] + enter * d[0], v = f[2] + enter * d[2], last_u = f[0] + leave * d[0], last_v = f[2] + leave * d[2];
+    Doubles u = f[0] + enter * d[0], v = f[2] + enter * d[2], last_u = f[0] + leave * d[0],
+            last_v = f[2] + leave * d[2];
     Doubles square = d[0] * d[0] + d[2] * d[2], room = 0x1p-28 * (doubles_abs(enter) + doubles_abs(leave));
     PrismLanes of = {
         .u = u,
