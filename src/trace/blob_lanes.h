@@ -290,17 +290,17 @@ RT_ALWAYS_INLINE void blob_lanes_go(const BlobLanes *blob, bool starts, unsigned
         BlobPlace place = blob_lanes_at(blob, steps->t, window);
         Doubles below = blob->threshold - place.value - blob->room, slope = place.slope + blob->slope_room;
         open &= ~is_start | (slope < 0.0); // on the surface the slope says which way it goes
-        DoublesMask is_over =
-            (place.rest * (1.0 + 0x1p-30) + blob->room < blob->threshold) | (steps->t > blob->last);
+        DoublesMask is_over = (place.rest * (1.0 + 0x1p-30) + blob->room < blob->threshold) | (steps->t > blob->last);
         Doubles rise = place.slope - blob->slope_room, apart = doubles_max(below, zero) + 2.0 * blob->room;
-        DoublesMask is_root = ~is_start & (rise > 2.0 * blob->slope_room) & (blob->bends * apart < 0x1p-20 * rise * rise);
+        DoublesMask is_root =
+            ~is_start & (rise > 2.0 * blob->slope_room) & (blob->bends * apart < 0x1p-20 * rise * rise);
         steps->missed |= open & is_over;
         steps->found |= open & ~is_over & is_root;
         open &= ~is_over & ~is_root & ((below > 0.0) | is_start);
         Doubles bend = place.bend + 0x1p-20 * doubles_abs(place.bend);
         Doubles away = -slope / doubles_max(bend, 0x1p-20 * blob->bends);
-        Doubles stride = doubles_choose(is_start, doubles_min(away, window),
-                                        blob_lanes_stride(below, slope, bend, window));
+        Doubles stride =
+            doubles_choose(is_start, doubles_min(away, window), blob_lanes_stride(below, slope, bend, window));
         steps->t = doubles_choose(open, steps->t + stride, steps->t);
         window = 2.0 * stride;
         is_start = (DoublesMask){0};

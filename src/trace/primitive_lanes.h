@@ -1,9 +1,9 @@
 // Some rays against a primitive of a kind that has a test in lanes, in the primitive's own space: part of
 // spheres_kernel.c.
 //
-// Roots are those of single rays, bit for bit: by the same text (trace/sphere.inc, trace/cone.inc) or, where a single ray
-// branches, by the same operations in their order (box_interval, cone_interval and flat_root). Whatever takes a way that ordinary rays do not take (along a face, grazing,
-// through a tip) is not certain: it is asked by itself.
+// Roots are those of single rays, bit for bit: by the same text (trace/sphere.inc, trace/cone.inc) or, where a single
+// ray branches, by the same operations in their order (box_interval, cone_interval and flat_root). Whatever takes a way
+// that ordinary rays do not take (along a face, grazing, through a tip) is not certain: it is asked by itself.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_PRIMITIVE_LANES_H
@@ -13,6 +13,8 @@
 
 #include "trace/cone.h"
 #include "trace/curve_lanes.h"
+#include "trace/prism.h"
+#include "trace/prism_lanes.h"
 #include "trace/shapes.h"
 #include "trace/simd.h"
 #include "trace/sphere_rays.h"
@@ -111,8 +113,8 @@ RT_ALWAYS_INLINE bool ball_lanes(const LanePrimitive *own, const RayLanes *rays,
     Doubles f_squared = vec3s_length_squared(rays->f);
     Doubles sum = f_squared + 1.0, c = f_squared - 1.0, uncertainty = SPHERE_UNCERTAINTY * sum;
     unsigned outer = doubles_ge(c, uncertainty);
-    lanes->possible = asked & doubles_ge(discriminant, -SPHERE_ROUNDING * sum) &
-                      (doubles_ge(t_middle, doubles_splat(0.0)) | ~outer);
+    lanes->possible =
+        asked & doubles_ge(discriminant, -SPHERE_ROUNDING * sum) & (doubles_ge(t_middle, doubles_splat(0.0)) | ~outer);
     if (!lanes->possible) {
         return false;
     }
@@ -120,7 +122,8 @@ RT_ALWAYS_INLINE bool ball_lanes(const LanePrimitive *own, const RayLanes *rays,
     lanes->leaves = ~doubles_ge(c, doubles_splat(0.0));
     Doubles half = doubles_sqrt(discriminant * ray.inverse_square);
     Doubles root = spheres_root(t_middle, discriminant, c, ray.inverse_square);
-    Doubles error = (slack->fixed + slack->slope * root) * ray.inverse_square / half; // |n·d| is half an interval times |d|²
+    Doubles error =
+        (slack->fixed + slack->slope * root) * ray.inverse_square / half; // |n·d| is half an interval times |d|²
     lanes->root = root;
     lanes->side = (DoublesMask){0};
     lanes->bound = doubles_min(2.0 * half, error) + 0x1p-10 * root;
@@ -210,7 +213,7 @@ RT_ALWAYS_INLINE bool cone_lanes(const LanePrimitive *own, const RayLanes *rays,
     Doubles along = doubles_sqrt(r.discriminant);
     Doubles sum = -(b + (Doubles)((DoublesMask)along | ((DoublesMask)b & INT64_MIN)));
     Doubles first = sum / a, second = r.c / sum;
-    DoublesMask ordered = first < second, narrows = a > 0.0, widens = ~narrows & (r.q > 0.0);
+    DoublesMask ordered = first<second, narrows = a> 0.0, widens = ~narrows & (r.q > 0.0);
     Doubles less = doubles_choose(ordered, first, second), greater = doubles_choose(ordered, second, first);
     IntervalLanes interval, slab;
     interval.enter = doubles_choose(narrows, less, doubles_choose(widens, greater, -far));
@@ -225,12 +228,32 @@ RT_ALWAYS_INLINE bool cone_lanes(const LanePrimitive *own, const RayLanes *rays,
     return interval_lanes_first(own, &interval, asked, lanes);
 }
 
+// What prism_intervals finds first, where a ray comes in at an end of the prism.
+RT_ALWAYS_INLINE bool prism_lanes(const LanePrimitive *own, const RayLanes *rays, unsigned asked, PrimitiveLanes *lanes)
+{
+    const Doubles f[3] = {rays->f.x, rays->f.y, rays->f.z}, d[3] = {rays->d.x, rays->d.y, rays->d.z};
+    IntervalLanes slab;
+    DoublesMask certain = ~(DoublesMask){0};
+    unsigned misses;
+    slab_lanes(f[1], d[1], own->solid->data[0].y, own->solid->data[1].y, PRISM_LOW, &slab, &certain);
+    asked &= ~doubles_mask_bits(certain & (slab.leave <= 0.0)); // all of it is behind
+    certain &= (slab.enter > 0.0) & (slab.enter < slab.leave) & (slab.leave < 0x1p900);
+    unsigned told = asked & doubles_mask_bits(certain);
+    lanes->certain = told ? prism_lanes_enter(own->solid, f, d, slab.enter, slab.leave, told, &misses) : 0;
+    lanes->possible = asked & ~(told ? told & misses : 0);
+    lanes->leaves = 0;
+    lanes->root = slab.enter;
+    lanes->side = slab.enter_side;
+    lanes->bound = (own->slack.fixed + own->slack.slope * slab.enter) / slab.enter_along;
+    return lanes->possible;
+}
+
 // smooth_normal of each, from the normals at the corners.
 RT_ALWAYS_INLINE Vec3s smooth_lanes(const Vec3s corners[3], Doubles x, Doubles y)
 {
     Doubles first = 1.0 - x - y;
-    Vec3s normal = vec3s_add(vec3s_add(vec3s_scale(first, corners[0]), vec3s_scale(x, corners[1])),
-                             vec3s_scale(y, corners[2]));
+    Vec3s normal =
+        vec3s_add(vec3s_add(vec3s_scale(first, corners[0]), vec3s_scale(x, corners[1])), vec3s_scale(y, corners[2]));
     DoublesMask cancel = (normal.x == 0.0) & (normal.y == 0.0) & (normal.z == 0.0);
     return vec3s_choose(cancel, corners[0], normal);
 }
@@ -304,9 +327,12 @@ RT_ALWAYS_INLINE bool primitive_lanes(const LanePrimitive *own, PrimitiveKind ki
         return curve_lanes(own, PRIMITIVE_TORUS, rays, false, asked, lanes);
     case PRIMITIVE_POLYNOMIAL:
         return curve_lanes(own, PRIMITIVE_POLYNOMIAL, rays, false, asked, lanes);
+    case PRIMITIVE_PRISM:
+        return prism_lanes(own, rays, asked, lanes);
     case PRIMITIVE_BLOB:
         return curve_lanes(own, PRIMITIVE_BLOB, rays, false, asked, lanes);
-    default: return flat_lanes(own, kind, rays, asked, lanes);
+    default:
+        return flat_lanes(own, kind, rays, asked, lanes);
     }
 }
 
@@ -315,10 +341,10 @@ RT_ALWAYS_INLINE Doubles lanes_max_abs(const Doubles v[3])
     return doubles_max(doubles_max(doubles_abs(v[0]), doubles_abs(v[1])), doubles_abs(v[2]));
 }
 
-// Those of some rays that may meet a quadric, in whose space `f` and `d` are.
-RT_ALWAYS_INLINE unsigned quadric_lanes_possible(const PreparedPrimitive *primitive, const Doubles f[3],
-                                                 const Doubles d[3])
+// Those of some rays that may meet a quadric, in whose space `origin` and `direction` are.
+RT_ALWAYS_INLINE unsigned quadric_lanes_possible(const PreparedPrimitive *primitive, Vec3s origin, Vec3s direction)
 {
+    const Doubles f[3] = {origin.x, origin.y, origin.z}, d[3] = {direction.x, direction.y, direction.z};
     Doubles value, rounding;
     Doubles discriminant =
         quadric_discriminant(primitive->list.items, f, d, lanes_max_abs(f), lanes_max_abs(d), &value, &rounding);
@@ -334,8 +360,8 @@ RT_ALWAYS_INLINE unsigned box_lanes_enter(const Bvh *tree, const ItemBox *box, V
     const Vec3s start = vec3s_scale(doubles_splat(tree->scale), vec3s_sub(origin, vec3s_splat(tree->centre)));
     const Doubles o[3] = {start.x, start.y, start.z}, direction[3] = {world.x, world.y, world.z};
     Doubles in = doubles_splat(0.0), out = doubles_splat((double)INFINITY);
-    Doubles reach = doubles_abs(o[0]) + doubles_abs(o[1]) + doubles_abs(o[2]) +
-                    (tree->half.x + tree->half.y + tree->half.z);
+    Doubles reach =
+        doubles_abs(o[0]) + doubles_abs(o[1]) + doubles_abs(o[2]) + (tree->half.x + tree->half.y + tree->half.z);
     Doubles pad = 12.0 * (DBL_EPSILON / 2) * reach;
 #pragma GCC unroll 3
     for (int axis = 0; axis < 3; axis++) {

@@ -8,6 +8,7 @@
 #ifndef TRACE_SHAPES_H
 #define TRACE_SHAPES_H
 
+#include "scene/outline.h"
 #include "trace/bvh.h"
 #include "trace/mesh.h"
 #include "trace/prepared_primitive.h"
@@ -79,8 +80,15 @@ static inline bool kind_has_lanes(PrimitiveKind kind)
 {
     const unsigned kinds = 1u << PRIMITIVE_SPHERE | 1u << PRIMITIVE_BOX | 1u << PRIMITIVE_CONE | 1u << PRIMITIVE_DISC |
                            1u << PRIMITIVE_TRIANGLE | 1u << PRIMITIVE_SMOOTH_TRIANGLE | 1u << PRIMITIVE_TORUS |
-                           1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_BLOB;
+                           1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_BLOB | 1u << PRIMITIVE_PRISM;
     return kinds >> kind & 1;
+}
+
+// Whether points and normals on them are computed for some rays at once, too (trace/shapes_surface.h).
+static inline bool kind_has_surface_lanes(PrimitiveKind kind)
+{
+    const unsigned others = 1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_BLOB | 1u << PRIMITIVE_PRISM;
+    return kind_has_lanes(kind) && !(others >> kind & 1);
 }
 
 // Whether that is so by trace/curve_lanes.h, and then of which primitives of the kind: tori that do not go through
@@ -108,9 +116,12 @@ static inline bool primitive_is_quadric(const PreparedPrimitive *primitive)
 
 static inline bool primitive_has_lanes(const PreparedPrimitive *primitive)
 {
-    return kind_is_curve((PrimitiveKind)primitive->kind)
-               ? primitive_is_curve(primitive) || primitive_is_quadric(primitive)
-               : kind_has_lanes((PrimitiveKind)primitive->kind);
+    PrimitiveKind kind = (PrimitiveKind)primitive->kind;
+    if (kind == PRIMITIVE_PRISM) { // with ends, and walls along one axis
+        return !(primitive->flags & PRIMITIVE_OPEN) && !outline_is_conic(&primitive->list);
+    }
+    return kind_is_curve(kind) ? primitive_is_curve(primitive) || primitive_is_quadric(primitive)
+                               : kind_has_lanes(kind);
 }
 
 // The box of an item as its leaf has it: in the tree's coordinates, rounded outward.

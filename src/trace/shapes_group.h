@@ -18,13 +18,19 @@ typedef struct ShapeGroup {
     const ShapeTable *table;
     RayStart start; // of all of them, outward
     const PreparedPrimitive *left;
-    double far; // of any origin from 0
+    double far;                    // of any origin from 0
     double start_error[TILE_RAYS]; // as in ShapeQuery
     // Of balls, straight primitives and curves, at most: see passed_error; -INFINITY: nothing.
     _Alignas(64) double passed_round[TILE_RAYS];
     double passed_straight[TILE_RAYS];
     double passed_curve[TILE_RAYS];
 } ShapeGroup;
+
+// Whether start_along knows it.
+static bool start_has_along(const PreparedPrimitive *left, uint8_t side)
+{
+    return kind_has_surface_lanes((PrimitiveKind)left->kind) || prepared_classes[left->kind].across[side] > 0;
+}
 
 // n·d where some rays start on a primitive's side, n being the gradient there.
 RT_ALWAYS_INLINE Doubles start_along(const PreparedPrimitive *left, uint8_t side, Vec3s f, Vec3s d)
@@ -39,9 +45,8 @@ RT_ALWAYS_INLINE Doubles start_along(const PreparedPrimitive *left, uint8_t side
         return vec3s_dot(f, d) - ring * ((f.x * d.x + f.z * d.z) / rho);
     }
     double slope = left->kind == PRIMITIVE_CONE ? 1.0 - left->data[0].x : 0.0;
-    return left->kind == PRIMITIVE_CONE
-               ? f.x * d.x + f.y * d.y + slope * doubles_sqrt(f.x * f.x + f.y * f.y) * d.z
-               : vec3s_dot(f, d);
+    return left->kind == PRIMITIVE_CONE ? f.x * d.x + f.y * d.y + slope * doubles_sqrt(f.x * f.x + f.y * f.y) * d.z
+                                        : vec3s_dot(f, d);
 }
 
 // How much of primitives of the family that they start on the rays have passed, at most.
@@ -59,9 +64,10 @@ static void group_set_passed(ShapeGroup *from, const RayGroup *group)
     }
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
-        if (has_lanes && left->kind != PRIMITIVE_POLYNOMIAL && left->kind != PRIMITIVE_BLOB) {
+        if (has_lanes && start_has_along(left, primitive_side(from->start.shape))) {
             RayLanes rays = lane_primitive_ray(&own, group->origin, group->direction, at);
-            passed = own.slack.fixed / doubles_abs(start_along(left, primitive_side(from->start.shape), rays.f, rays.d));
+            passed =
+                own.slack.fixed / doubles_abs(start_along(left, primitive_side(from->start.shape), rays.f, rays.d));
         } else if (!left && is_straight) {
             for (unsigned i = 0; i < DOUBLES; i++) {
                 passed[i] = from->start_error[at + i < group->count ? at + i : group->count - 1];
@@ -95,9 +101,8 @@ RT_ALWAYS_INLINE LanesMet group_primitive_lanes(const ShapeGroup *from, const Ra
 {
     PrimitiveLanes lanes;
     RayLanes rays = lane_primitive_ray(own, group->origin, group->direction, at);
-    bool is_met = kind_is_curve(kind) && own->solid == from->left
-                      ? curve_lanes(own, kind, &rays, true, asked, &lanes)
-                      : primitive_lanes(own, kind, &rays, asked, &lanes);
+    bool is_met = kind_is_curve(kind) && own->solid == from->left ? curve_lanes(own, kind, &rays, true, asked, &lanes)
+                                                                  : primitive_lanes(own, kind, &rays, asked, &lanes);
     if (!is_met) {
         return (LanesMet){0, 0};
     }
@@ -156,9 +161,8 @@ static uint64_t group_quadric(const ShapeGroup *from, const RayGroup *group, con
     uint64_t may = 0;
     lane_primitive_set(&own, primitive, from->far);
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
-        Doubles f[3], d[3];
-        lane_primitive_ray(&own, group->origin, group->direction, at, f, d);
-        may |= (uint64_t)(quadric_lanes_possible(primitive, f, d) & ((1u << DOUBLES) - 1)) << at;
+        RayLanes rays = lane_primitive_ray(&own, group->origin, group->direction, at);
+        may |= (uint64_t)(quadric_lanes_possible(primitive, rays.f, rays.d) & ((1u << DOUBLES) - 1)) << at;
     }
     return may & ~occluded;
 }
@@ -172,9 +176,14 @@ static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, c
          (primitive_is_flat(primitive) || (!primitive->flips && primitive_is_convex(primitive))))) {
         return occluded;
     }
-    if (primitive == from->left &&
-        (primitive_is_quadric(primitive) || (primitive->flips && !primitive_is_convex(primitive)))) {
+    if (primitive == from->left && primitive_is_quadric(primitive)) {
         *may = ~occluded; // they go in, or may meet it again
+        return occluded;
+    }
+    if (primitive == from->left && !primitive_is_convex(primitive) &&
+        (primitive->flips || primitive->kind == PRIMITIVE_PRISM)) {
+        bool is_gone = !primitive->flips && primitive_side(from->start.shape) != PRISM_WALL; // beyond its ends
+        *may = is_gone ? 0 : ~occluded;                                                      // they go in, or along
         return occluded;
     }
     if (primitive_is_quadric(primitive)) {
@@ -196,6 +205,8 @@ static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, c
         return group_primitive_kind(from, group, primitive, PRIMITIVE_POLYNOMIAL, box, occluded, may);
     case PRIMITIVE_BLOB:
         return group_primitive_kind(from, group, primitive, PRIMITIVE_BLOB, box, occluded, may);
+    case PRIMITIVE_PRISM:
+        return group_primitive_kind(from, group, primitive, PRIMITIVE_PRISM, box, occluded, may);
     default:
         return group_primitive_kind(from, group, primitive, PRIMITIVE_TRIANGLE, box, occluded, may);
     }

@@ -93,7 +93,7 @@ static uint64_t shapes_surfaces(const ShapeTable *table, const double *const ori
     for (unsigned kinds = surfaces_kinds(table, surfaces, asked); kinds; kinds &= kinds - 1) {
         PrimitiveKind kind = (PrimitiveKind)__builtin_ctz(kinds);
         KindSurfaces of; // not cleared
-        if (!kind_has_lanes(kind) || kind == PRIMITIVE_POLYNOMIAL || kind == PRIMITIVE_BLOB) {
+        if (!kind_has_surface_lanes(kind)) {
             continue;
         }
         surfaces_of_kind(table, surfaces, asked, kind, &of);

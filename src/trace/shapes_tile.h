@@ -22,13 +22,13 @@ typedef struct ShapesTile {
     const ShapeTable *table;
     const SphereTile *tile;
     TileForemost *first;
-    TileHits *hits;          // the same's
+    TileHits *hits;                // the same's
     uint64_t bounded, approximate; // the rays of whose first hit's span only a bound is known; whose root is a ball's
                                    // and approximate
-    uint64_t walking;        // the rays that the tree is walked for
-    double far;              // of the rays' origin from 0
-    double limit;            // up to where something may yet be the first of some ray
-    _Alignas(64) double enter[TILE_RAYS]; // bounded_enter of a ShapeQuery
+    uint64_t walking;              // the rays that the tree is walked for
+    double far;                    // of the rays' origin from 0
+    double limit;                  // up to where something may yet be the first of some ray
+    _Alignas(64) double enter[TILE_RAYS];  // bounded_enter of a ShapeQuery
     _Alignas(64) int64_t shape[TILE_RAYS]; // of the hits, as wide as their roots
     TilePlanes planes;
     ShapeBeam others; // what has no test in lanes
@@ -71,8 +71,8 @@ static uint64_t ball_view_rays(const BallView *view, const SphereTile *tile)
         Doubles x = doubles_load(&tile->direction[0][i]);
         Doubles y = doubles_load(&tile->direction[1][i]);
         Doubles z = doubles_load(&tile->direction[2][i]);
-        Doubles form = x * (view->xx * x + view->xy * y + view->xz * z) + y * (view->yy * y + view->yz * z) +
-                       view->zz * z * z;
+        Doubles form =
+            x * (view->xx * x + view->xy * y + view->xz * z) + y * (view->yy * y + view->yz * z) + view->zz * z * z;
         missed |= (uint64_t)doubles_ge(doubles_splat(-view->margin), form) << i;
     }
     return ~missed;
@@ -237,14 +237,10 @@ RT_ALWAYS_INLINE void tile_primitive_kind(ShapesTile *of, const PreparedPrimitiv
 static void tile_quadric(ShapesTile *of, const PreparedPrimitive *primitive, const ItemBox *box, uint64_t may)
 {
     Vec3 own = linear_direction(&primitive->to_object, vec3_sub(of->tile->origin, primitive->centre));
-    const Doubles f[3] = {doubles_splat(own.x), doubles_splat(own.y), doubles_splat(own.z)};
-    Linears to_object;
-    linears_splat(&primitive->to_object, &to_object);
+    Linears to_object = linears_splat(&primitive->to_object);
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
-        Doubles direction[3], d[3];
-        lanes_load(of->tile->direction, at, direction);
-        linears_direction(&to_object, direction, d);
-        unsigned asked = may >> at & quadric_lanes_possible(primitive, f, d) & ((1u << DOUBLES) - 1);
+        Vec3s d = linears_direction(&to_object, vec3s_load(of->tile->direction, at));
+        unsigned asked = may >> at & quadric_lanes_possible(primitive, vec3s_splat(own), d) & ((1u << DOUBLES) - 1);
         for (; asked; asked &= asked - 1) {
             tile_ray(of, at + (unsigned)__builtin_ctz(asked), (uint32_t)(primitive - of->table->primitives), box, NULL);
         }
@@ -286,6 +282,9 @@ static void tile_primitive(ShapesTile *of, const PreparedPrimitive *primitive, c
         break;
     case PRIMITIVE_BLOB:
         tile_primitive_kind(of, primitive, PRIMITIVE_BLOB, box, may);
+        break;
+    case PRIMITIVE_PRISM:
+        tile_primitive_kind(of, primitive, PRIMITIVE_PRISM, box, may);
         break;
     default:
         tile_primitive_kind(of, primitive, PRIMITIVE_SMOOTH_TRIANGLE, box, may);
@@ -424,8 +423,8 @@ static void tile_refine_roots(ShapesTile *of)
         Doubles before = doubles_load(&of->hits->t[at]), root = before;
         DoublesMask shape = *(const DoublesMask *)&of->shape[at], is_approximate = doubles_bits_mask(approximate);
         shape = (is_approximate & shape) | (~is_approximate & shape[__builtin_ctz(approximate)]);
-        unsigned certain = balls_refine(primitives, parts_index(shape), vec3s_splat(eye),
-                                        vec3s_load(of->tile->direction, at), &root);
+        unsigned certain =
+            balls_refine(primitives, parts_index(shape), vec3s_splat(eye), vec3s_load(of->tile->direction, at), &root);
         doubles_store(&of->hits->t[at], doubles_choose(is_approximate, root, before));
         for (approximate &= ~certain; RT_UNLIKELY(approximate); approximate &= approximate - 1) {
             unsigned i = (unsigned)__builtin_ctz(approximate);

@@ -66,15 +66,18 @@ static unsigned curve_intervals(const PreparedPrimitive *primitive, const Ray *o
     return count;
 }
 
-static double curve_error(const ShapeQuery *q, const PreparedPrimitive *primitive, const Ray *object, double t)
+static double several_error(const ShapeQuery *q, const PreparedPrimitive *primitive, const Ray *object, double t,
+                            uint8_t side)
 {
     RayInterval intervals[primitive->interval_most];
-    unsigned count = curve_intervals(primitive, object, intervals), i = 0;
+    unsigned count = primitive_is_curve(primitive) ? curve_intervals(primitive, object, intervals)
+                                                   : primitive_intervals(primitive, object, LEFT_NONE, intervals);
+    unsigned i = 0;
     while (i + 1 < count && intervals[i].enter != t) {
         i++;
     }
     double room = count > 0 ? interval_room(intervals, count, i) : (double)INFINITY;
-    return primitive_end_error(primitive, q->ray, object, t, 0, room);
+    return primitive_end_error(primitive, q->ray, object, t, side, room);
 }
 
 // The error of a first hit of which only a bound is known. What is not a ball the ray does not start on.
@@ -88,8 +91,8 @@ static double bounded_error(const ShapeQuery *q, const Ray *object, const Hit *h
     if (primitive_is_flat(primitive)) {
         return primitive_crossing_error(primitive, q->ray, object, hit->t, 0);
     }
-    if (primitive_is_curve(primitive)) {
-        return curve_error(q, primitive, object, hit->t);
+    if (!primitive_is_convex(primitive)) {
+        return several_error(q, primitive, object, hit->t, primitive_side(hit->shape));
     }
     (void)primitive_intervals(primitive, object, LEFT_NONE, &interval);
     return primitive_end_error(primitive, q->ray, object, hit->t, primitive_side(hit->shape),

@@ -92,6 +92,7 @@ RT_ALWAYS_INLINE void primitive_reach(const PreparedPrimitive *primitive, Primit
     case PRIMITIVE_BOX:
     case PRIMITIVE_POLYNOMIAL:
     case PRIMITIVE_BLOB:
+    case PRIMITIVE_PRISM:
         *low = *high = zero;
         for (int axis = 0; axis < 3; axis++) {
             Doubles a = from[axis] * own[axis], b = to[axis] * own[axis];
@@ -124,7 +125,8 @@ RT_ALWAYS_INLINE double primitive_farthest(const PreparedPrimitive *primitive, P
     const double(*m)[3] = primitive->to_world.m, *low = &primitive->data[0].x, *high = &primitive->data[1].x;
     double sum = vec3_sum_abs(offset);
     for (int axis = 0; axis < 3; axis++) {
-        bool has_box = kind == PRIMITIVE_BOX || kind == PRIMITIVE_POLYNOMIAL || kind == PRIMITIVE_BLOB;
+        bool has_box = kind == PRIMITIVE_BOX || kind == PRIMITIVE_POLYNOMIAL || kind == PRIMITIVE_BLOB ||
+                       kind == PRIMITIVE_PRISM;
         double size = has_box                   ? fabs(low[axis]) + fabs(high[axis])
                       : kind == PRIMITIVE_CONE  ? greater_of(1.0, low[0])
                       : kind == PRIMITIVE_TORUS ? low[0] + low[1]

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/blob.h"
+#include "scene/outline.h"
 #include "scene/polynomial.h"
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
@@ -22,7 +23,7 @@ typedef struct Family {
 enum { SIMPLE = 5 }; // so many of these have the families that name none
 static const PrimitiveKind simple[] = {
     PRIMITIVE_BOX,   PRIMITIVE_CONE,      PRIMITIVE_DISC, PRIMITIVE_TRIANGLE, PRIMITIVE_SMOOTH_TRIANGLE,
-    PRIMITIVE_TORUS, PRIMITIVE_POLYNOMIAL, PRIMITIVE_BLOB};
+    PRIMITIVE_TORUS, PRIMITIVE_POLYNOMIAL, PRIMITIVE_BLOB, PRIMITIVE_PRISM};
 
 static const Family kinds[] = {
     {"a few balls", 6, 0, 0, 0, 0, 1.0, 2.0, false, 0},
@@ -46,6 +47,8 @@ static const Family kinds[] = {
     {"closed quartics", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_POLYNOMIAL},
     {"blobs", 0, 300, 0, 0, 0, 0.3, 3.0, false, 1u << PRIMITIVE_BLOB},
     {"blobs in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_BLOB},
+    {"prisms", 0, 300, 0, 0, 0, 0.5, 3.0, false, 1u << PRIMITIVE_PRISM},
+    {"prisms and boxes in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_PRISM | 1u << PRIMITIVE_BOX},
     {"tori, closed quartics and cones", 0, 300, 20, 1, 5, 0.3, 3.0, false,
      1u << PRIMITIVE_TORUS | 1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_CONE},
     {"tori in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_TORUS},
@@ -104,6 +107,39 @@ static void set_blob(Random *random, Primitive *primitive)
     primitive->list = blobs[own];
 }
 
+// A prism over a star with a hole, of straight pieces, of curved ones, or growing with the height.
+static void set_prism(Random *random, Primitive *primitive)
+{
+    enum { CORNERS = 10, NUMBERS = OUTLINE_HEAD + OUTLINE_PIECE_NUMBERS * 2 * CORNERS };
+    static double lists[3][NUMBERS];
+    static Numbers outlines[3];
+    uint64_t own = random_bits(random) % 3;
+    OutlinePoint low, high;
+    if (!outlines[own].items) {
+        size_t count;
+        outline_begin(lists[own], &count, own == 1 ? 3 : 1, own == 2);
+        for (int i = 0; i < 2 * CORNERS; i++) {
+            double piece[8], turn = 6.283185307179586 / CORNERS;
+            for (int k = 0; k < 4; k++) {
+                int corner = k < 2 ? i % CORNERS : (i + 1) % CORNERS; // controls beyond the corners make it wavy
+                double size = (i < CORNERS ? 1.0 : 0.3) * (corner % 2 ? 0.6 : 1.0) * (k == 1 || k == 2 ? 1.2 : 1.0);
+                double *point = own == 1 ? &piece[2 * k] : &piece[k / 2 * 2];
+                if (own == 1 || k % 3 == 0) {
+                    point[0] = size * cos(turn * corner);
+                    point[1] = size * sin(turn * corner);
+                }
+            }
+            outline_add(lists[own], &count, piece);
+        }
+        outlines[own] = (Numbers){lists[own], count};
+    }
+    outline_bounds(&outlines[own], &low, &high);
+    primitive->kind = PRIMITIVE_PRISM;
+    primitive->fixed[0] = vec3(low.u, own == 2 ? 0.2 : -0.3, low.v);
+    primitive->fixed[1] = vec3(high.u, own == 2 ? 1.0 : 0.3, high.v);
+    primitive->list = outlines[own];
+}
+
 static Primitive part_at(Random *random, PrimitiveKind kind, double size, Vec3 at)
 {
     Primitive primitive = random_primitive(random, kind, size);
@@ -111,6 +147,8 @@ static Primitive part_at(Random *random, PrimitiveKind kind, double size, Vec3 a
         set_quartic(random, &primitive);
     } else if (kind == PRIMITIVE_BLOB) {
         set_blob(random, &primitive);
+    } else if (kind == PRIMITIVE_PRISM) {
+        set_prism(random, &primitive);
     }
     primitive.to_world = transform_compose(primitive.to_world, transform_translate(at));
     if (!transform_invert(&primitive.to_world, &primitive.to_object)) {
@@ -143,7 +181,7 @@ static Primitive random_solid(Random *random, const Family *family, PrimitiveKin
     Primitive primitive = part_at(random, kind, size, random_point(random, family->spread));
     uint64_t bits = random_bits(random);
     bool has_inside = kind == PRIMITIVE_SPHERE || kind == PRIMITIVE_BOX || kind == PRIMITIVE_CONE ||
-                      kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL || kind == PRIMITIVE_BLOB;
+                      kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL || kind == PRIMITIVE_BLOB || kind == PRIMITIVE_PRISM;
     if (kind == PRIMITIVE_SMOOTH_TRIANGLE) {
         for (int i = 0; i < 3; i++) {
             primitive.data[i] = random_direction(random);
