@@ -30,29 +30,29 @@ syn keyword rtlangWord background bicubic_patch black_hole blob blur_samples bou
 syn keyword rtlangWord brick_size brilliance bump_map bump_size bumps camera caustics cells charset checker
 syn keyword rtlangWord circular clipped_by color_map colour_map component cone confidence conserve_energy
 syn keyword rtlangWord contained_by control0 control1 crackle crand cube cubic cubic_wave cylinder cylindrical
-syn keyword rtlangWord dents difference diffuse direction disc dist_exp distance emission evaluate exponent
-syn keyword rtlangWord exr exterior fade_color fade_colour fade_distance fade_power falloff falloff_angle
-syn keyword rtlangWord finish fisheye flip focal_point fog fog_alt fog_offset fog_type form frequency fresnel
-syn keyword rtlangWord gamma global_settings gradient granite hdr height_field hexagon hf_gray_16 hierarchy
-syn keyword rtlangWord hollow image_map image_pattern inside_vector interior interior_texture interpolate
-syn keyword rtlangWord intersection inverse ior irid irid_wavelength isosurface jitter jpeg julia
-syn keyword rtlangWord julia_fractal lambda lathe leopard light_source location look_at looks_like magnet
-syn keyword rtlangWord major_radius mandel map_type marble material material_map matrix max_gradient
-syn keyword rtlangWord max_intersections max_iteration max_trace max_trace_level media_attenuation
-syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
-syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
-syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
-syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
-syn keyword rtlangWord pigment_map pigment_pattern planar plane png point_at poly poly_wave polygon ppm
-syn keyword rtlangWord precision premultiplied prism quadric quartic quaternion quick_color quick_colour
-syn keyword rtlangWord quilted radial radius rainbow ramp_wave reflection reflection_exponent refraction
-syn keyword rtlangWord repeat right ripples rotate roughness scale scallop_wave shadowless sine_wave sky
-syn keyword rtlangWord sky_sphere slice slope slope_map smooth smooth_triangle solid sor specular sphere
-syn keyword rtlangWord sphere_sweep spherical spiral1 spiral2 split_union spotlight spotted sqr strength sturm
-syn keyword rtlangWord superellipsoid text texture texture_map tga thickness threshold tiff tightness tiles
-syn keyword rtlangWord tolerance toroidal torus transform translate triangle triangle_wave turb_depth
-syn keyword rtlangWord turbulence ultra_wide_angle union up uv_mapping variance warp water_level waves width
-syn keyword rtlangWord wood wrinkles
+syn keyword rtlangWord dents difference diffuse direction disc dist_exp distance double_illuminate emission
+syn keyword rtlangWord evaluate exponent exr exterior fade_color fade_colour fade_distance fade_power falloff
+syn keyword rtlangWord falloff_angle finish fisheye flip focal_point fog fog_alt fog_offset fog_type form
+syn keyword rtlangWord frequency fresnel gamma global_lights global_settings gradient granite hdr height_field
+syn keyword rtlangWord hexagon hf_gray_16 hierarchy hollow image_map image_pattern inside_vector interior
+syn keyword rtlangWord interior_texture interpolate intersection inverse ior irid irid_wavelength isosurface
+syn keyword rtlangWord jitter jpeg julia julia_fractal lambda lathe leopard light_group light_source location
+syn keyword rtlangWord look_at looks_like magnet major_radius mandel map_type marble material material_map
+syn keyword rtlangWord matrix max_gradient max_intersections max_iteration max_trace max_trace_level
+syn keyword rtlangWord media_attenuation media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar
+syn keyword rtlangWord no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator normal
+syn keyword rtlangWord normal_map number_of_waves object octaves offset omega omnimax once onion open orient
+syn keyword rtlangWord orientation orthographic panoramic parallel pattern perspective pgm phase phong
+syn keyword rtlangWord phong_size pigment pigment_map pigment_pattern planar plane png point_at poly poly_wave
+syn keyword rtlangWord polygon ppm precision premultiplied prism quadric quartic quaternion quick_color
+syn keyword rtlangWord quick_colour quilted radial radius rainbow ramp_wave reflection reflection_exponent
+syn keyword rtlangWord refraction repeat right ripples rotate roughness scale scallop_wave shadowless
+syn keyword rtlangWord sine_wave sky sky_sphere slice slope slope_map smooth smooth_triangle solid sor
+syn keyword rtlangWord specular sphere sphere_sweep spherical spiral1 spiral2 split_union spotlight spotted
+syn keyword rtlangWord sqr strength sturm superellipsoid text texture texture_map tga thickness threshold tiff
+syn keyword rtlangWord tightness tiles tolerance toroidal torus transform translate triangle triangle_wave
+syn keyword rtlangWord turb_depth turbulence ultra_wide_angle union up uv_mapping variance warp water_level
+syn keyword rtlangWord waves width wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

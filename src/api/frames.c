@@ -234,7 +234,8 @@ static bool read_frame(rt_session *session, Scene *scene, Said *said)
     bool is_in_order = session->frames.is_past ? session->frames.is_in_order
                                                : scene->shape_count == session->frames.reading_shapes;
     fine = fine && !said->no_memory && !said->text.failed;
-    return fine && is_in_order && scene->fogs.count == fogs && scene->rainbows.count == rainbows && scene->sky.count == layers;
+    return fine && is_in_order && scene->light_groups.count == 0 && scene->fogs.count == fogs &&
+           scene->rainbows.count == rainbows && scene->sky.count == layers;
 }
 
 // Camera, lights and settings as text, without the rest of the scene.

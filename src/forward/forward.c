@@ -40,6 +40,9 @@ const char *forward_misfit(const Prepared *prepared, const ForwardOptions *optio
     if (prepared->has_dome) {
         return "light from all sides";
     }
+    if (prepared->textures.is_lit_apart) {
+        return "groups of lights, and surfaces that are lit from both sides";
+    }
     if (prepared->light_count == 0) {
         return "a scene without light sources";
     }

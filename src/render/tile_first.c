@@ -23,6 +23,9 @@ static bool has_plain_finish(const Prepared *p, FinishIndex finish)
 
 static bool is_plain(const Prepared *p, MaterialIndex index)
 {
+    if (p->textures.is_lit_apart) {
+        return false;
+    }
     if (!(index & MATERIAL_COMPOUND)) {
         const Material *material = &p->materials[index];
         return material->filter == 0.0F && material->transmit == 0.0F && has_plain_finish(p, material->finish);

@@ -154,6 +154,7 @@ typedef struct ObjectPart {
     bool is_inverse;
     bool was_turned; // inside out, if only to be turned back
     bool no_shadow, no_image, no_reflection;
+    bool is_double, says_double; // double_illuminate
     bool ignored; // what changes no picture
     const Clip *clips, *bounds; // in order
     const TextureDesc *texture; // of its own, as it is moved with the object; NULL: taken over
@@ -387,6 +388,8 @@ typedef struct UnionDesc {
     uint32_t count;
     uint32_t depth;       // of the unions inside, this one included
     bool is_other_block;  // `clipped_by { bounded_by }` or the other way round
+    bool is_light_group;
+    bool global_lights; // of a light group: lights of no group count, too
 } UnionDesc;
 
 typedef struct BackgroundDesc {

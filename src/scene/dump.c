@@ -236,6 +236,9 @@ void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *ar
         text_printf(out, "%s texture { M%lu }", hollow, (unsigned long)material + 1);
     }
     dump_inner_texture(scene, material, out);
+    if ((material & MATERIAL_COMPOUND) && scene->compounds.items[material & ~MATERIAL_COMPOUND].is_double) {
+        text_append(out, " double_illuminate");
+    }
     if (!around || *around != interior) {
         dump_interior_word(interior, out);
     }
@@ -256,15 +259,39 @@ static void dump_plane(const Scene *scene, const Plane *plane, const uint32_t *a
     dump_texture(scene, plane->material, around, out);
 }
 
-// The bodies of several shapes that are open while shapes are written, each as a union.
+// The bodies of several shapes, and the group of lights, that are open while shapes are written: each body as a union.
 typedef struct OpenBodies {
     const Scene *scene;
     uint32_t innermost, next; // Scene.bodies; the first may be RECORD_NONE
+    uint32_t group_end;       // of the open group's shapes; 0: none is open
+    uint32_t group_in;        // the innermost body around it
+    uint32_t next_group;      // Scene.light_groups
 } OpenBodies;
+
+static bool has_group_inside(const OpenBodies *open)
+{
+    return open->group_end != 0 && open->innermost == open->group_in;
+}
+
+static void close_group(OpenBodies *open, TextBuffer *out)
+{
+    const LightGroup *group = &open->scene->light_groups.items[open->next_group - 1];
+    text_append(out, group->has_others ? " global_lights on }\n" : " }\n");
+    open->group_end = 0;
+}
 
 static void close_bodies(OpenBodies *open, uint32_t order, TextBuffer *out)
 {
-    while (open->innermost != RECORD_NONE && open->scene->bodies.items[open->innermost].end <= order) {
+    for (;;) {
+        if (has_group_inside(open)) {
+            if (open->group_end > order) {
+                return;
+            }
+            close_group(open, out);
+        }
+        if (open->innermost == RECORD_NONE || open->scene->bodies.items[open->innermost].end > order) {
+            return;
+        }
         const Body *body = &open->scene->bodies.items[open->innermost];
         if (body->interior != RECORD_NONE || body->around != RECORD_NONE) {
             dump_interior_word(body->interior, out);
@@ -274,12 +301,42 @@ static void close_bodies(OpenBodies *open, uint32_t order, TextBuffer *out)
     }
 }
 
+static void open_group(OpenBodies *open, TextBuffer *out)
+{
+    const Scene *scene = open->scene;
+    const LightGroup *group = &scene->light_groups.items[open->next_group++];
+    text_append(out, "light_group {\n");
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        if (scene->lights.items[i].group == open->next_group) {
+            dump_light(&scene->lights.items[i], out);
+        }
+    }
+    open->group_end = group->end;
+    open->group_in = open->innermost;
+    if (group->end == group->first) {
+        close_group(open, out);
+    }
+}
+
+// Of what begins at a shape, what ends last comes first.
 static void open_bodies(OpenBodies *open, uint32_t order, TextBuffer *out)
 {
-    for (; open->next < open->scene->bodies.count && open->scene->bodies.items[open->next].first <= order; open->next++) {
-        if (open->scene->bodies.items[open->next].end > order + 1) {
-            text_append(out, "union {\n");
-            open->innermost = open->next;
+    const Scene *scene = open->scene;
+    for (;;) {
+        bool has_body = open->next < scene->bodies.count && scene->bodies.items[open->next].first <= order;
+        bool has_group =
+            open->next_group < scene->light_groups.count && scene->light_groups.items[open->next_group].first <= order;
+        if (!has_body && !has_group) {
+            return;
+        }
+        uint32_t end = has_body ? scene->bodies.items[open->next].end : 0;
+        if (!has_body || (has_group && scene->light_groups.items[open->next_group].end > end) ||
+            (has_group && end <= order + 1)) {
+            open_group(open, out);
+        } else {
+            open->innermost = end > order + 1 ? open->next : open->innermost;
+            text_append(out, end > order + 1 ? "union {\n" : "");
+            open->next++;
         }
     }
 }
@@ -299,7 +356,7 @@ static const uint32_t *interior_around(const OpenBodies *open, uint32_t order)
 static void dump_shapes(const Scene *scene, TextBuffer *out)
 {
     size_t sphere = 0, plane = 0, part = 0, composite = 0;
-    OpenBodies open = {scene, RECORD_NONE, 0};
+    OpenBodies open = {scene, RECORD_NONE, 0, 0, RECORD_NONE, 0};
     for (uint32_t order = 0; order < scene->shape_count; order++) {
         close_bodies(&open, order, out);
         open_bodies(&open, order, out);
@@ -316,6 +373,7 @@ static void dump_shapes(const Scene *scene, TextBuffer *out)
         }
     }
     close_bodies(&open, scene->shape_count, out);
+    open_bodies(&open, scene->shape_count, out); // groups without shapes
 }
 
 static void dump_fog(const Fog *fog, TextBuffer *out)
@@ -369,7 +427,7 @@ void scene_dump(const Scene *scene, TextBuffer *out)
     for (size_t i = 0; i < scene->fogs.count; i++) {
         dump_fog(&scene->fogs.items[i], out);
     }
-    for (size_t i = 0; i < scene->lights.count; i++) {
+    for (size_t i = 0; i < scene->lights.count && scene->lights.items[i].group == 0; i++) {
         dump_light(&scene->lights.items[i], out);
     }
     for (size_t i = 0; i < scene->finishes.count; i++) {

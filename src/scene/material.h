@@ -142,6 +142,8 @@ typedef struct Compound {
     uint32_t interior;  // Scene.interiors, or RECORD_NONE
     uint32_t is_hollow; // fog continues inside of it
     MaterialIndex inner; // what it looks like where a ray meets it from inside: of the same interior; or RECORD_NONE
+    uint32_t light_group; // 1 + one of Scene.light_groups, whose lights it is lit by; 0: by those of none
+    uint32_t is_double;   // lights on its far side light it as those on its near side do
 } Compound;
 
 #define MATERIAL_COMPOUND (UINT32_C(1) << 31)

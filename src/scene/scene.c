@@ -58,7 +58,8 @@ void scene_init(Scene *scene)
 #define SCENE_LISTS(X)                                                                                                 \
     X(sky)                                                                                                             \
     X(fogs)                                                                                                            \
-    X(rainbows) X(lights) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps) X(warps)            \
+    X(rainbows)                                                                                                        \
+    X(lights) X(light_groups) X(finishes) X(materials) X(pigment_entries) X(patterns) X(formula_steps) X(warps)        \
         X(picture_sources) X(picture_shades) X(image_maps) X(pictures) X(slope_entries) X(normal_entries) X(normals)   \
             X(texture_entries) X(textures) X(interiors) X(compounds) X(spheres) X(sphere_runs) X(planes) X(primitives) \
                 X(meshes) X(face_materials) X(blobs) X(nodes) X(composites) X(start_shapes) X(bodies) X(insides)
@@ -252,5 +253,13 @@ bool scene_add_fog(Scene *scene, const Fog *fog)
 
 bool scene_add_light(Scene *scene, const Light *light)
 {
-    return ARRAY_PUSH(&scene->lights, *light);
+    if (!ARRAY_PUSH(&scene->lights, *light)) {
+        return false;
+    }
+    size_t place = scene->lights.count - 1;
+    for (; place > 0 && light->group == 0 && scene->lights.items[place - 1].group != 0; place--) {
+        scene->lights.items[place] = scene->lights.items[place - 1];
+    }
+    scene->lights.items[place] = *light;
+    return true;
 }

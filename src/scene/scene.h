@@ -81,8 +81,15 @@ typedef struct LightArea {
     bool is_oriented; // it faces the point that is lit: circular, axes of one length, which alone counts
 } LightArea;
 
+// Lights that light the shapes of a group alone, and those shapes.
+typedef struct LightGroup {
+    uint32_t first, end; // its shapes in the order of declaration
+    bool has_others;     // lights of no group light them, too
+} LightGroup;
+
 typedef struct Light {
     LightType type;
+    uint32_t group; // 1 + one of Scene.light_groups; 0: of none. Those of groups stand behind all others
     bool shadowless;
     bool is_attenuated; // by fog, which is not supported: a fault where there is some
     Vec3 position;
@@ -185,6 +192,7 @@ typedef struct Scene {
     bool has_camera; // the scene said so; else camera is the language's default
     Camera camera;
     ARRAY(Light) lights;
+    ARRAY(LightGroup) light_groups; // in the order of shapes; none is within another
     ARRAY(Finish) finishes;    // each different one once
     ARRAY(Material) materials; // each different one once, or nearly so, see scene_add_material_record
     ARRAY(PigmentEntry) pigment_entries; // of these nine, too, each different one once

@@ -126,6 +126,8 @@ static const SchemaProperty object_modifiers[] = {
     {"no_image", TYPE_FLAG, AT(ObjectPart, no_image), .doc = "is not seen by the camera, nor through others"},
     {"no_reflection", TYPE_FLAG, AT(ObjectPart, no_reflection), .doc = "is not seen in mirrors"},
     {"hollow", TYPE_SWITCH, AT(ObjectPart, hollow), .doc = "what is inside of it is not free of fog"},
+    {"double_illuminate", TYPE_SWITCH, AT(ObjectPart, is_double), GIVEN(ObjectPart, says_double),
+     .doc = "lights on the far side light it as those on the near side do; that of a union counts"},
     {"no_radiosity", TYPE_FLAG, AT(ObjectPart, ignored), .doc = "accepted; changes no picture"},
 };
 
@@ -479,6 +481,12 @@ static const SchemaProperty union_properties[] = {
      .doc = "off: `no_image` and the like hold for the union, not its members"},
 };
 
+static const SchemaProperty light_group_properties[] = {
+    {"global_lights", TYPE_SWITCH, AT(UnionDesc, global_lights), .doc = "lights of no group light its objects, too"},
+};
+
+static const UnionDesc light_group_defaults = {.part = {.transform = IDENTITY, .split_union = true},
+                                               .is_light_group = true};
 static const UnionDesc union_defaults = {.part = {.transform = IDENTITY, .split_union = true}};
 
 static const SchemaProperty background_arguments[] = {
@@ -993,7 +1001,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                          .is_object = true,
                          .is_declarable = true,
                          .groups = {LIST(isosurface_properties), OBJECT_GROUPS},
-                         .doc = "Where a function is at a threshold, within a sphere or box; inside where it is below."},
+                         .doc =
+                             "Where a function is at a threshold, within a sphere or box; inside where it is below."},
     [KIND_CONTAINED_BY] = {.word = "contained_by",
                            .size = sizeof(ContainerDesc),
                            .defaults = &container_defaults,
@@ -1035,7 +1044,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                     .is_object = true,
                     .is_declarable = true,
                     .groups = {LIST(torus_properties), OBJECT_GROUPS},
-                    .doc = "A word for the curve, the number of points, the points: a curve in x and y, turned about y."},
+                    .doc =
+                        "A word for the curve, the number of points, the points: a curve in x and y, turned about y."},
     [KIND_SOR] = {.word = "sor",
                   .what = "a sor",
                   .size = sizeof(SorDesc),
@@ -1053,15 +1063,16 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                              .is_declarable = true,
                              .groups = {OBJECT_GROUPS},
                              .doc = "`<e, n>`: where (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) is less than 1."},
-    [KIND_SPHERE_SWEEP] = {.word = "sphere_sweep",
-                           .what = "a sphere sweep",
-                           .size = sizeof(SweepDesc),
-                           .defaults = &sweep_defaults,
-                           .is_object = true,
-                           .is_declarable = true,
-                           .groups = {LIST(sweep_properties), OBJECT_GROUPS},
-                           .doc = "A word for the curve, the number of balls, the middle and radius of each: all that a ball "
-                                  "covers."},
+    [KIND_SPHERE_SWEEP] =
+        {.word = "sphere_sweep",
+         .what = "a sphere sweep",
+         .size = sizeof(SweepDesc),
+         .defaults = &sweep_defaults,
+         .is_object = true,
+         .is_declarable = true,
+         .groups = {LIST(sweep_properties), OBJECT_GROUPS},
+         .doc = "A word for the curve, the number of balls, the middle and radius of each: all that a ball "
+                "covers."},
     [KIND_JULIA_FRACTAL] = {.word = "julia_fractal",
                             .what = "a Julia fractal",
                             .size = sizeof(JuliaDesc),
@@ -1163,6 +1174,14 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                          .is_declarable = true,
                          .groups = {OBJECT_GROUPS},
                          .doc = "What is inside of the first object and of none of the others."},
+    [KIND_LIGHT_GROUP] = {.word = "light_group",
+                          .what = "a light group",
+                          .size = sizeof(UnionDesc),
+                          .defaults = &light_group_defaults,
+                          .is_object = true,
+                          .is_declarable = true,
+                          .groups = {LIST(light_group_properties), TRANSFORMS},
+                          .doc = "Lights and objects, which these light, and no others."},
     [KIND_OBJECT] = {.word = "object",
                      .what = "an object",
                      .size = sizeof(UnionDesc),
@@ -1262,7 +1281,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                             .size = sizeof(ImageDesc),
                             .defaults = &image_defaults,
                             .groups = {LIST(picture_properties), LIST(image_pattern_properties)},
-                            .doc = "In what has a pattern: how bright a picture is, whose values are taken as they are."},
+                            .doc =
+                                "In what has a pattern: how bright a picture is, whose values are taken as they are."},
     [KIND_BUMP_MAP] = {.word = "bump_map",
                        .what = "a bump_map",
                        .size = sizeof(ImageDesc),
@@ -1370,7 +1390,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 };
 
 static const SchemaUnsupported unsupported[] = {
-    {"light_group", true, "use a `union`", "its lights and shapes"},
     {"media", true, NULL, "smoke, dust and fire, and their light"},
     {"ovus", true, "use a sphere with `scale`", NULL},
     {"parametric", true, NULL, NULL},

@@ -49,6 +49,7 @@ typedef enum SchemaKind {
     KIND_MERGE,
     KIND_INTERSECTION,
     KIND_DIFFERENCE,
+    KIND_LIGHT_GROUP,
     KIND_OBJECT,
     KIND_BACKGROUND,
     KIND_SKY_SPHERE,
@@ -73,7 +74,7 @@ typedef enum SchemaKind {
     KIND_CLIPPED_BY, // braces of an object's properties; read as objects
     KIND_BOUNDED_BY,
     KIND_LOOKS_LIKE,
-    KIND_BLOB_BALL,  // the braces of a blob's `sphere` and `cylinder`
+    KIND_BLOB_BALL, // the braces of a blob's `sphere` and `cylinder`
     KIND_BLOB_ROD,
     KIND_CONTAINED_BY, // the braces of `contained_by`, and of what stands in them
     KIND_CONTAINER_BALL,
@@ -81,9 +82,9 @@ typedef enum SchemaKind {
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
     KIND_WARP,
-    KIND_SLOPE, // the braces of the pattern `slope`
-    KIND_IRID, // the braces of `irid`; written into a finish
-    KIND_PATTERN, // of a function
+    KIND_SLOPE,       // the braces of the pattern `slope`
+    KIND_IRID,        // the braces of `irid`; written into a finish
+    KIND_PATTERN,     // of a function
     KIND_UNSUPPORTED, // declared, but of a kind or with a property that rtlang has not
     KIND_COUNT
 } SchemaKind;

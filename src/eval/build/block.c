@@ -80,6 +80,7 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_MERGE] = object_members,
     [KIND_INTERSECTION] = object_members,
     [KIND_DIFFERENCE] = object_members,
+    [KIND_LIGHT_GROUP] = object_members,
     [KIND_OBJECT] = object_body,
     [KIND_CLIPPED_BY] = clip_body,
     [KIND_BOUNDED_BY] = clip_body,
@@ -114,6 +115,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_MERGE] = union_close,
     [KIND_INTERSECTION] = union_close,
     [KIND_DIFFERENCE] = union_close,
+    [KIND_LIGHT_GROUP] = light_group_close,
     [KIND_FINISH] = finish_close,
     [KIND_REFLECTION] = reflection_close,
     [KIND_TRANSFORM] = transform_close,
@@ -264,7 +266,8 @@ static void read_name(Block *block)
 {
     const AstNode *item = cursor_peek(&block->cursor);
     Value value;
-    bool takes_members = block->kind == KIND_CLIPPED_BY || block->kind == KIND_BOUNDED_BY; // names, too
+    bool takes_members = block->kind == KIND_CLIPPED_BY || block->kind == KIND_BOUNDED_BY ||
+                         block->kind == KIND_LIGHT_GROUP; // names, too
     if (!item || !block_is_name(item) || takes_members) {
         return;
     }
@@ -313,7 +316,9 @@ static bool read_argument(Block *block, const SchemaProperty *argument)
         block->cursor.has_comma = false;
         block_fault(block, DIAG_E0259, item->span, "no comma may stand before the %s", argument->word);
     }
-    if ((block->kind == KIND_PIGMENT || argument->is_anywhere) && !block_begins_like_colour(block, item)) {
+    bool has_colour_first = block->kind == KIND_PIGMENT || argument->is_anywhere;
+    block->ev->wants_colour = has_colour_first && block_begins_with_macro(block, item);
+    if (has_colour_first && !block->ev->wants_colour && !block_begins_like_colour(block, item)) {
         block_fault(block, DIAG_E0254, item->span,
                     "the colour of a %s begins with a colour word such as `rgb`, or with the name of a colour",
                     block_word(block));

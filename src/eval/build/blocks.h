@@ -191,6 +191,8 @@ static inline bool normal_lacks_pattern(const NormalDesc *normal)
 }
 // A pigment's colour begins with a colour word or with an identifier of a colour: POV-Ray takes nothing else.
 bool block_begins_like_colour(Block *block, const AstNode *item);
+// Whether an expression begins with the text of a macro, which its value tells what it is.
+bool block_begins_with_macro(const Block *block, const AstNode *item);
 
 // Whether a pattern may stand here: it must be the first word.
 bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -248,8 +250,9 @@ bool texture_hides_all(const TextureDesc *texture);
 typedef struct MaterialSides {
     const InteriorDesc *interior; // what is inside; NULL: nothing was said
     const TextureDesc *filling;   // whose old finishes may say something of that
-    bool is_hollow;
-    MaterialIndex inner; // what is seen from inside, or RECORD_NONE
+    bool is_hollow, is_double;
+    uint32_t light_group; // as of a Compound
+    MaterialIndex inner;  // what is seen from inside, or RECORD_NONE
 } MaterialSides;
 // The scene's record of a texture that is moved by `outer`.
 bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer, const MaterialSides *sides, Span span,
@@ -300,7 +303,8 @@ bool light_close(Block *block) RT_MUST_CHECK;
 bool light_point_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool light_look_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 void light_transform(LightDesc *light, const Transform *transform);
-bool light_place(Eval *ev, const LightDesc *light, const Transform *outer) RT_MUST_CHECK;
+// `group`: 1 + one of Scene.light_groups, or 0.
+bool light_place(Eval *ev, const LightDesc *light, const Transform *outer, uint32_t group) RT_MUST_CHECK;
 
 // sky.c: sky_sphere and fog
 bool sky_layer_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -395,6 +399,7 @@ bool height_field_close(Block *block) RT_MUST_CHECK;
 bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object
 bool union_close(Block *block) RT_MUST_CHECK;
+bool light_group_close(Block *block) RT_MUST_CHECK; // what is read is a union
 bool object_is_group(SchemaKind kind); // a union, merge, intersection or difference
 // How deep groups, and lights that look like groups, stand in one another in an object.
 uint32_t object_depth(SchemaKind kind, const void *object);

@@ -166,7 +166,7 @@ static LightType light_type(const LightDesc *light)
                               : LIGHT_POINT;
 }
 
-bool light_place(Eval *ev, const LightDesc *light, const Transform *outer)
+bool light_place(Eval *ev, const LightDesc *light, const Transform *outer, uint32_t group)
 {
     LightDesc moved = *light;
     light_transform(&moved, outer);
@@ -174,6 +174,7 @@ bool light_place(Eval *ev, const LightDesc *light, const Transform *outer)
     double length = light->cylinder ? world_scale(ev) : 1.0; // a spotlight's are angles
     Light record = {
         .type = light_type(light),
+        .group = group,
         .shadowless = light->shadowless,
         .is_attenuated = light->is_attenuated,
         .position = moved.position,

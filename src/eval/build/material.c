@@ -519,7 +519,10 @@ bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer
 {
     SharedMaps shared = {0};
     Builder builder = {ev, ev->scene, span, &shared, true};
-    Compound compound = {.is_hollow = sides->is_hollow, .inner = sides->inner};
+    Compound compound = {.is_hollow = sides->is_hollow,
+                         .inner = sides->inner,
+                         .light_group = sides->light_group,
+                         .is_double = sides->is_double};
     MapCost cost;
     if (texture_asks_uv(texture)) {
         world_note(ev);
@@ -529,7 +532,8 @@ bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer
     }
     bool is_plain = texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE;
     if (is_plain && !has_bumps(texture) && (!texture->below || texture_hides_all(texture)) &&
-        compound.interior == RECORD_NONE && compound.inner == RECORD_NONE) {
+        compound.interior == RECORD_NONE && compound.inner == RECORD_NONE && compound.light_group == 0 &&
+        !compound.is_double) {
         Finish finish = texture->finish;
         finish.flags |= sides->is_hollow ? FINISH_HOLLOW : 0;
         return layers_have_patterns(ev, texture) &&

@@ -158,6 +158,16 @@ void block_refuse_colour(Block *block, const AstNode *item)
     }
 }
 
+bool block_begins_with_macro(const Block *block, const AstNode *item)
+{
+    while (item->kind == AST_BINARY && !(item->flags & AST_IN_PARENTHESES)) {
+        item = item->a;
+    }
+    bool is_call = item->kind == AST_CALL && !item->b && !(item->flags & AST_IN_PARENTHESES);
+    const Value *found = is_call ? scope_find(block->ev, item->symbol) : NULL;
+    return found && found->kind == VALUE_MACRO;
+}
+
 bool block_begins_like_colour(Block *block, const AstNode *item)
 {
     while (item->kind == AST_BINARY) {

@@ -175,6 +175,12 @@ bool union_close(Block *block)
     return true;
 }
 
+bool light_group_close(Block *block)
+{
+    block->is = KIND_UNION;
+    return true;
+}
+
 bool object_body(Block *block)
 {
     const AstNode *item = cursor_peek(&block->cursor);

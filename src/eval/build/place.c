@@ -65,7 +65,7 @@ static bool place_both_sides(Eval *ev, const TextureDesc *texture, const Transfo
                              Span span, MaterialIndex *material)
 {
     MaterialIndex inner = RECORD_NONE;
-    MaterialSides sides = {at->interior, texture, at->is_hollow, RECORD_NONE};
+    MaterialSides sides = {at->interior, texture, at->is_hollow, at->is_double, at->light_group, RECORD_NONE};
     if (at->inner && !material_place(ev, at->inner, &at->inner_outer, &sides, span, &inner)) {
         return false;
     }
@@ -309,6 +309,9 @@ static bool place_look(Eval *ev, const LightDesc *light, const Placement *outer)
         .texture_outer = light->part.texture ? outer->outer : outer->texture_outer,
         .inner = outer->inner,
         .inner_outer = outer->inner_outer,
+        .light_group = outer->light_group,
+        .is_double = outer->is_double,
+        .says_double = outer->says_double,
         .interior = outer->interior,
         .body = outer->body,
         .is_look = true,
@@ -317,13 +320,34 @@ static bool place_look(Eval *ev, const LightDesc *light, const Placement *outer)
     return place(ev, light->look->kind, light->look->object, &own);
 }
 
+// In POV-Ray a group within another takes the outer one's word on global lights, and its lights depending on how it was
+// written.
+static bool begin_light_group(Eval *ev, const UnionDesc *group, const Placement *outer, Placement *inner)
+{
+    LightGroup record = {.first = ev->scene->shape_count, .has_others = group->global_lights};
+    if (outer->light_group != 0) {
+        return eval_fault(ev, DIAG_E0251, group->part.span, "a light group within another is not supported by rtlang");
+    }
+    inner->light_group = (uint32_t)ev->scene->light_groups.count + 1;
+    inner->takes_lights = true;
+    return ARRAY_PUSH(&ev->scene->light_groups, record) || eval_no_memory(ev, group->part.span);
+}
+
+static void end_light_group(Scene *scene, bool is_open)
+{
+    if (is_open) {
+        scene->light_groups.items[scene->light_groups.count - 1].end = scene->shape_count;
+    }
+}
+
 // Recursive: object_members and light_look_action keep trees from growing deeper than the limit.
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer)
 {
     bool is_counted = !outer->whole && !outer->is_look;
     if (kind == KIND_LIGHT_SOURCE) {
         ev->object_count += is_counted;
-        return light_place(ev, object, &outer->outer) && place_look(ev, object, outer);
+        return light_place(ev, object, &outer->outer, outer->takes_lights ? outer->light_group : 0) &&
+               place_look(ev, object, outer);
     }
     const ObjectPart *part = object;
     ClipChain own = {outer->clips, part->clips, &outer->outer, !outer->whole};
@@ -334,6 +358,9 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .texture_outer = part->texture ? outer->outer : outer->texture_outer,
         .inner = part->inner ? part->inner : outer->inner,
         .inner_outer = part->inner ? outer->outer : outer->inner_outer,
+        .light_group = outer->light_group,
+        .is_double = outer->says_double ? outer->is_double : part->is_double,
+        .says_double = outer->says_double || part->says_double,
         .interior = part->interior ? part->interior : outer->interior,
         .body = outer->body,
         .clips = part->clips ? &own : outer->clips,
@@ -345,11 +372,17 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .is_hidden_fixed = outer->is_hidden_fixed || !part->split_union || part->clips || part->bounds,
     };
     bool is_union = kind == KIND_UNION && !part->was_turned;
+    bool is_lit_apart = is_union && ((const UnionDesc *)object)->is_light_group;
+    if (is_lit_apart && !begin_light_group(ev, object, outer, &inner)) {
+        return false;
+    }
     inner.whole = outer->whole || !is_union || !inner.is_hidden_fixed ? outer->whole : &whole;
     ev->object_count += is_counted && (!is_union || inner.whole);
     bool is_body = is_union ? part->interior || outer->body == RECORD_NONE : part->interior && outer->body != RECORD_NONE;
     if (!is_body) {
-        return is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);
+        bool is_placed = is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);
+        end_light_group(ev->scene, is_lit_apart);
+        return is_placed;
     }
     uint64_t clear_count = ev->clear_count;
     if (!scene_begin_body(ev->scene, outer->body, &inner.body)) {
@@ -357,6 +390,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
     }
     bool is_placed = is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);
     scene_end_body(ev->scene, inner.body, ev->clear_count != clear_count);
+    end_light_group(ev->scene, is_lit_apart);
     return is_placed;
 }
 

@@ -26,6 +26,9 @@ typedef struct Placement {
     uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
     const BoxOwner *whole; // the outermost union around that is one object, or NULL
+    uint32_t light_group;  // 1 + one of Scene.light_groups that it is in; 0: it is in none
+    bool takes_lights;     // they are that group's
+    bool is_double, says_double; // double_illuminate, of the outermost object that says so or not
     bool is_inner, is_hollow; // inside of another object, whose word on this counts
     bool is_stretched;        // extent_is_stretched, of any object around
     bool is_look;             // of a light

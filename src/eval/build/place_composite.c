@@ -225,13 +225,17 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
         return true;
     }
     if (kind == KIND_LIGHT_SOURCE) {
-        return light_place(ev, object, &outer->placement.outer) && place_has_no_look(ev, object);
+        return light_place(ev, object, &outer->placement.outer, 0) && place_has_no_look(ev, object);
     }
     const ObjectPart *part = object;
     Branch branch = *outer;
     if (outer->is_in_merge && place_hidden(part)) {
         return eval_fault(ev, DIAG_E0365, part->span,
                           "a member of a merge that some rays do not see is not supported by rtlang");
+    }
+    if (kind == KIND_UNION && ((const UnionDesc *)object)->is_light_group && !outer->is_inside) {
+        return eval_fault(ev, DIAG_E0251, part->span,
+                          "a light group among shapes that are cut is not supported by rtlang");
     }
     ClipChain own = {outer->placement.clips, part->clips, &outer->placement.outer, !outer->placement.whole};
     const ClipChain *clips = part->clips ? &own : outer->placement.clips;
@@ -245,6 +249,8 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
         branch.placement.inner = part->inner;
         branch.placement.inner_outer = outer->placement.outer;
     }
+    branch.placement.is_double = outer->placement.says_double ? outer->placement.is_double : part->is_double;
+    branch.placement.says_double = outer->placement.says_double || part->says_double;
     branch.placement.interior = part->interior ? part->interior : outer->placement.interior;
     if (part->interior && outer->parent != NODE_NONE && !outer->is_inside) {
         branch.body = ++ev->scene->inner_body_count;

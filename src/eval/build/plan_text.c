@@ -91,7 +91,8 @@ void plan_note(Eval *ev, PlanTrial *trial, SchemaKind kind, const Desc *record)
     const ObjectPart *part = &record->part;
     const TextureDesc *texture = part->texture ? part->texture : ev->objects->defaults;
     bool is_plain = kind == trial->plan->kind && !part->is_inverse && !part->no_shadow && !part->no_image &&
-                    !part->no_reflection && !part->interior && !part->clips && !part->bounds && texture->ior == 0.0;
+                    !part->no_reflection && !part->is_double && !part->interior && !part->clips && !part->bounds &&
+                    texture->ior == 0.0;
     memcpy(&trial->plan->record, record, is_plain ? schema_kind(kind)->size : 0);
     trial->plan = is_plain ? trial->plan : NULL;
 }

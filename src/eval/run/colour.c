@@ -142,6 +142,13 @@ static bool read_plain(Cursor *cursor, Span span, double v[COMPONENTS])
     cursor->ev->at_colour = true;
     bool fine = cursor_value(cursor, &value);
     cursor->ev->at_colour = false;
+    bool wants_colour = cursor->ev->wants_colour;
+    cursor->ev->wants_colour = false;
+    if (fine && wants_colour && value.kind != VALUE_COLOUR) {
+        return eval_fault(cursor->ev, DIAG_E0254, span,
+                          "the colour of a pigment begins with a colour word such as `rgb`, or with the name of a "
+                          "colour");
+    }
     if (!fine || !value_colour(cursor->ev, &value, span, &colour)) {
         return false;
     }

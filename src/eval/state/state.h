@@ -173,6 +173,7 @@ struct Eval {
     unsigned inner;       // parentheses of any kind around the expression that is being computed
     unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are computed; 0: none
     bool at_colour;       // the value that is being computed stands where a colour word could
+    bool wants_colour;    // the next value for a colour, which begins with a macro's text, is to be one by itself
     bool stop;           // a limit is exhausted, #error was met or there are too many faults: unwind
 };
 

@@ -302,7 +302,9 @@ static Rgb follow_layer(void *client, const TextureLayer *layer)
         .first_light = follower->ray_log->lights.count,
     };
     for (size_t i = 0; i < p->light_count; i++) {
-        follow_light(follower, &material, &p->lights[i]);
+        if (shade_reaches(p, FEATURES, follower->at, &p->lights[i])) {
+            follow_light(follower, &material, &p->lights[i]);
+        }
     }
     if (p->has_dome && shade_takes_light(material.finish, material.opaque)) {
         RenderStatistics unused = {0};

@@ -38,7 +38,7 @@ static bool lights_are_covered(const Scene *scene, const Prepared *p, DiagSink *
         return refuse(diags, scene->whole, "light from all sides");
     }
     for (size_t i = 0; i < p->light_count; i++) {
-        if (!p->lights[i].is_plain) {
+        if (!p->lights[i].is_plain || scene->lights.items[p->lights[i].number].group != 0) {
             return refuse(diags, scene->lights.items[p->lights[i].number].span,
                           "a light that is not of one point or direction");
         }
@@ -49,7 +49,8 @@ static bool lights_are_covered(const Scene *scene, const Prepared *p, DiagSink *
 static bool compound_is_plain(const Scene *scene, const Compound *compound)
 {
     const Texture *texture = &scene->textures.items[compound->texture];
-    return compound->inner == RECORD_NONE && texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE &&
+    return compound->inner == RECORD_NONE && compound->light_group == 0 && !compound->is_double &&
+           texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE &&
            texture->pigment.pattern == RECORD_NONE && texture->normal == RECORD_NONE;
 }
 

@@ -34,7 +34,9 @@ RT_ALWAYS_INLINE Rgb shade_local_of(const Prepared *p, unsigned features, const 
 {
     Rgb light = rgb_mul(material->opaque, material->finish->glow);
     for (size_t i = 0; i < p->light_count; i++) {
-        light = rgb_add(light, shade_light(p, features, material, &p->lights[i], at, statistics));
+        if (shade_reaches(p, features, at, &p->lights[i])) {
+            light = rgb_add(light, shade_light(p, features, material, &p->lights[i], at, statistics));
+        }
     }
     if (RT_UNLIKELY(p->has_dome) && shade_takes_light(material->finish, material->opaque)) {
         light = rgb_add(light, dome_light(p, material, at, statistics));
@@ -209,6 +211,7 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Sta
                          .body = surface.body,
                          .interior = has_interiors ? shade_interior(p, surface.material) : RECORD_NONE,
                          .ior_ratio = 1.0,
+                         .lit = shade_lit(p, features, surface.material),
                          .way = has_interiors ? hit.t * p->textures.scale : 0.0,
                          .inside = hit.inside,
                          .stream = features & RENDER_LIGHTS ? stream : NULL};

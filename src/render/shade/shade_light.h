@@ -40,6 +40,7 @@ typedef struct ShadingPoint {
     uint32_t interior; // of the shape
     double ior_ratio;  // index of refraction behind the surface over the one before it
     double way;        // of the ray that found it, in the scene's lengths; where there are interiors
+    const Compound *lit; // what of it lights reach otherwise than usual; NULL: nothing
     bool inside;  // the ray met the surface from the side where the shape is
     bool leaves;  // what the ray is in; where there are interiors
     SampleStream *stream; // what area lights draw numbers from; NULL: they are grids; where there are such lights
@@ -92,6 +93,13 @@ RT_ALWAYS_INLINE Surface shade_surface_met(const Prepared *p, unsigned features,
         surface.material = shade_side(p, surface.material, surface.normal, ray.direction);
     }
     return surface;
+}
+
+// See ShadingPoint.lit.
+RT_ALWAYS_INLINE const Compound *shade_lit(const Prepared *p, unsigned features, MaterialIndex material)
+{
+    bool is_apart = (features & RENDER_TEXTURES) && RT_UNLIKELY(p->textures.is_lit_apart);
+    return is_apart && (material & MATERIAL_COMPOUND) ? &p->compounds[material & ~MATERIAL_COMPOUND] : NULL;
 }
 
 // What an interior leaves of light that comes out of it.
@@ -380,6 +388,17 @@ RT_ALWAYS_INLINE double shade_grain(const PreparedLight *light, const ShadingPoi
 // say. In shade_thin.c.
 Rgb shade_thin_layer(const Prepared *p, const PreparedFinish *finish, const ShadingPoint *at, double cosine);
 
+// Whether a light lights what the point is of.
+RT_ALWAYS_INLINE bool shade_reaches(const Prepared *p, unsigned features, const ShadingPoint *at,
+                                    const PreparedLight *light)
+{
+    if (!(features & RENDER_TEXTURES) || RT_LIKELY(!p->textures.is_lit_apart)) {
+        return true;
+    }
+    uint32_t of_light = p->scene->lights.items[light->number].group, of_point = at->lit ? at->lit->light_group : 0;
+    return of_light == of_point || (of_light == 0 && p->scene->light_groups.items[of_point - 1].has_others);
+}
+
 // What one light adds at a point: diffuse on the side it stands on, highlights on the viewer's side only.
 RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const ShadeMaterial *material,
                                  const PreparedLight *light, const ShadingPoint *at, RenderStatistics *statistics)
@@ -387,8 +406,9 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     const PreparedFinish *finish = material->finish;
     LightAim aim = light_aim(light, at->point, at->normal);
     double cosine = aim.cosine;
-    bool front = cosine > 0.0;
-    bool back = (features & RENDER_BRILLIANCE) && cosine < 0.0 && finish->diffuse_back > 0.0;
+    bool is_double = (features & RENDER_TEXTURES) && at->lit && at->lit->is_double;
+    bool front = cosine > 0.0 || is_double;
+    bool back = !front && (features & RENDER_BRILLIANCE) && cosine < 0.0 && finish->diffuse_back > 0.0;
     if (!(front || back) || !shade_takes_light(finish, material->opaque)) {
         return rgb_grey(0.0);
     }
@@ -408,7 +428,9 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
         }
         arriving = rgb_mul(arriving, share);
     }
-    double falloff = features & RENDER_BRILLIANCE ? shade_power(fabs(cosine), finish->brilliance) : cosine;
+    double falloff = features & RENDER_BRILLIANCE ? shade_power(fabs(cosine), finish->brilliance)
+                     : is_double                  ? fabs(cosine)
+                                                  : cosine;
     double diffuse = back ? finish->diffuse_back : finish->diffuse;
     Rgb opaque = material->opaque;
     Rgb sum = rgb(lit_diffusely(falloff, diffuse, opaque.red), lit_diffusely(falloff, diffuse, opaque.green),

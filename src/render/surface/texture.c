@@ -55,6 +55,15 @@ static bool has_sides(const Scene *scene)
     return has;
 }
 
+static bool is_lit_apart(const Scene *scene)
+{
+    bool is = scene->light_groups.count > 0;
+    for (size_t i = 0; i < scene->compounds.count && !is; i++) {
+        is = scene->compounds.items[i].is_double;
+    }
+    return is;
+}
+
 static bool asks_surface(const Pattern *pattern)
 {
     return pattern_info((PatternType)pattern->type)->is_of_surface;
@@ -253,7 +262,8 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     }
     table->faces = any_pattern(scene, asks_surface);
     table->has_sides = has_sides(scene);
-    table->is_walked = table->faces || table->has_sides;
+    table->is_lit_apart = is_lit_apart(scene);
+    table->is_walked = table->faces || table->has_sides || table->is_lit_apart;
     table->goes_abreast = any_pattern(scene, pattern_goes_abreast);
     for (size_t i = 0; i < scene->patterns.count; i++) {
         table->to_pattern[i] = way_back(&scene->patterns.items[i].to_world);

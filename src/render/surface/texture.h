@@ -37,6 +37,7 @@ struct TextureTable {
     Transform *warp_back; // for each of its warps
     bool faces;           // some pattern asks how a surface lies
     bool has_sides;       // something looks otherwise from inside
+    bool is_lit_apart;    // not all is lit by all lights, or on one side only
     bool is_walked;       // one of these: each texture is
 };
 
