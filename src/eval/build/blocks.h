@@ -222,6 +222,8 @@ bool pattern_read_blocks(Block *block, PatternType type, Span span) RT_MUST_CHEC
 
 // warp.c
 bool warp_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// Whether a word is one of the warp's type, which stands before it.
+bool warp_allows(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool warp_type_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool warp_close(Block *block) RT_MUST_CHECK;
 // Records of a pattern's warps, of which `last` was said last: Pattern.warps.

@@ -112,6 +112,39 @@ static bool type_of_word(Symbol word, WarpType *type)
     }
 }
 
+bool warp_allows(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    enum { MAPPINGS = 1 << WARP_CYLINDRICAL | 1 << WARP_SPHERICAL | 1 << WARP_TOROIDAL };
+    static const struct {
+        Word word;
+        unsigned types;
+        const char *beside;
+    } words[] = {
+        {W_octaves, 1 << WARP_TURBULENCE, "`turbulence`"},
+        {W_lambda, 1 << WARP_TURBULENCE, "`turbulence`"},
+        {W_omega, 1 << WARP_TURBULENCE, "`turbulence`"},
+        {W_offset, 1 << WARP_REPEAT, "`repeat`"},
+        {W_flip, 1 << WARP_REPEAT, "`repeat`"},
+        {W_strength, 1 << WARP_BLACK_HOLE, "`black_hole`"},
+        {W_falloff, 1 << WARP_BLACK_HOLE, "`black_hole`"},
+        {W_inverse, 1 << WARP_BLACK_HOLE, "`black_hole`"},
+        {W_major_radius, 1 << WARP_TOROIDAL, "`toroidal`"},
+        {W_orientation, MAPPINGS, "`cylindrical`, `spherical` or `toroidal`"},
+        {W_dist_exp, MAPPINGS, "`cylindrical`, `spherical` or `toroidal`"},
+    };
+    const WarpDesc *warp = &block->record->warp;
+    size_t i = 0;
+    while (i < RT_COUNT_OF(words) && (Symbol)words[i].word != item->symbol) {
+        i++;
+    }
+    if (i == RT_COUNT_OF(words) || block->has_unsupported || block->has_fault) {
+        return true;
+    }
+    bool fits = warp->types[warp->warp.type] && (words[i].types >> warp->warp.type & 1);
+    return fits || block_fault(block, DIAG_E0256, item->span, "`%s` of a warp stands behind %s only", property->word,
+                               words[i].beside);
+}
+
 bool warp_type_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     WarpDesc *warp = &block->record->warp;
