@@ -17,13 +17,18 @@ static PatternType owner_of(Symbol word)
     case W_form:
     case W_metric:
     case W_offset:
-    case W_solid: return PATTERN_CRACKLE;
+    case W_solid:
+        return PATTERN_CRACKLE;
     case W_control0:
-    case W_control1: return PATTERN_QUILTED;
-    case W_agate_turb: return PATTERN_AGATE;
+    case W_control1:
+        return PATTERN_QUILTED;
+    case W_agate_turb:
+        return PATTERN_AGATE;
     case W_mortar:
-    case W_brick_size: return PATTERN_BRICK;
-    default: return PATTERN_NONE;
+    case W_brick_size:
+        return PATTERN_BRICK;
+    default:
+        return PATTERN_NONE;
     }
 }
 
@@ -39,7 +44,8 @@ static bool is_of_pattern(const SchemaProperty *property)
     case ACTION_WARP:
     case ACTION_PATTERN_SOLID:
     case ACTION_WAVE:
-    case ACTION_MAP: return true;
+    case ACTION_MAP:
+        return true;
     default:
         return property->action == ACTION_NONE && property->at >= offsetof(PatternPart, pattern) &&
                property->at < offsetof(PatternPart, pattern) + sizeof(Pattern);
@@ -50,11 +56,11 @@ static bool is_of_pattern(const SchemaProperty *property)
 static bool fits_texture(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     bool is_word = is_of_pattern(property);
-    bool is_part = property->action == ACTION_PIGMENT || property->action == ACTION_NORMAL ||
-                   property->action == ACTION_FINISH;
+    bool is_part =
+        property->action == ACTION_PIGMENT || property->action == ACTION_NORMAL || property->action == ACTION_FINISH;
     bool has_pattern = block->has_name && block->record->patterned.pattern.type != PATTERN_NONE;
-    block->is_plain = block->is_plain || block->has_name ||
-                      (!block->is_patterned && (is_part || schema_is_transform(property)));
+    block->is_plain =
+        block->is_plain || block->has_name || (!block->is_patterned && (is_part || schema_is_transform(property)));
     block->is_patterned = block->is_patterned || (is_word && !block->is_plain);
     if (is_part && (block->is_patterned || has_pattern)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand in a texture that begins with a pattern",
@@ -199,6 +205,21 @@ bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNo
                         block_word(block)));
 }
 
+// The c of julia: two numbers.
+static bool read_plane_point(Block *block, const AstNode *item, Vec3 *point)
+{
+    const AstNode *next = cursor_peek(&block->cursor);
+    Value value = {.kind = VALUE_NUMBER};
+    if (next && cursor_at_value(&block->cursor) && !cursor_value(&block->cursor, &value)) {
+        return false;
+    }
+    if (value.kind != VALUE_VECTOR || value.components != 2) {
+        return block_fault(block, DIAG_E0253, item->span, "`julia` needs a vector of 2 after it");
+    }
+    *point = vec3(value.v[0], value.v[1], 0.0);
+    return true;
+}
+
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     const SchemaProperty direction = {property->word, TYPE_VECTOR, ACTION_NONE,
@@ -222,7 +243,10 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     if (info->blocks) {
         pattern->frequency = 0.0; // the numbers of blocks stay as they are
     }
-    if (info->has_direction && !block_value(block, &direction, item->span)) {
+    bool is_read = !info->has_direction    ? true
+                   : type == PATTERN_JULIA ? read_plane_point(block, item, &pattern->vector)
+                                           : block_value(block, &direction, item->span);
+    if (!is_read) {
         return false;
     }
     if (info->has_direction && info->has_count) {
@@ -499,6 +523,5 @@ bool pattern_close(Block *block)
     }
     TextureDesc *texture = &block->record->texture;
     return surface_close(block, &texture->part) &&
-           (!block->on_surface ||
-            texture_put_on_surface(block->ev, block->arena, texture, false, block->node->span));
+           (!block->on_surface || texture_put_on_surface(block->ev, block->arena, texture, false, block->node->span));
 }
