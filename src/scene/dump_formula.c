@@ -175,7 +175,9 @@ static void declare_call(const Formulas *formulas, const FormulaStep *step, Text
 {
     const char *end = formulas->is_own ? "\n" : " #end\n", *letter = formulas->is_own ? "J" : "G";
     unsigned long number = (unsigned long)step->which;
-    if (!formulas->is_own) {
+    if (formulas->is_own) { // POV-Ray declares no function anew
+        text_printf(out, "#ifdef (%s%lu) #undef %s%lu #end\n", letter, number, letter, number);
+    } else {
         text_printf(out, "#ifndef (%s%lu) ", letter, number);
     }
     text_printf(out, "#declare %s%lu = function ", letter, number);

@@ -176,7 +176,10 @@ static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBu
         text_printf(out, "  magnet %d", (int)pattern->magnet);
     }
     text_printf(out, pattern->magnet ? " %s" : "  %s", info->word);
-    if (info->has_direction) {
+    if (info->has_direction && info->has_count) { // a point of the plane
+        text_append(out, " ");
+        dump_numbers(out, (double[]){pattern->vector.x, pattern->vector.y}, 2);
+    } else if (info->has_direction) {
         dump_vector(out, " ", pattern->vector);
     }
     if (pattern->type == PATTERN_SLOPE) {

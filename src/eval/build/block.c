@@ -467,9 +467,6 @@ static bool may_stand_here(Block *block, const SchemaProperty *property, const A
         (block->kind == KIND_WARP && !warp_allows(block, property, item))) {
         return false;
     }
-    if (block->kind == KIND_WARP && !warp_allows(block, property, item)) {
-        return false;
-    }
     if (item->kind == AST_BLOCK && !takes_braces(property)) {
         return block_fault(block, DIAG_E0257, item->span, "`%s` takes no braces", property->word);
     }

@@ -219,6 +219,21 @@ bool pattern_may_begin(Block *block, const SchemaProperty *property, const AstNo
                         block_word(block)));
 }
 
+// The c of julia: two numbers.
+static bool read_plane_point(Block *block, const AstNode *item, Vec3 *point)
+{
+    const AstNode *next = cursor_peek(&block->cursor);
+    Value value = {.kind = VALUE_NUMBER};
+    if (next && cursor_at_value(&block->cursor) && !cursor_value(&block->cursor, &value)) {
+        return false;
+    }
+    if (value.kind != VALUE_VECTOR || value.components != 2) {
+        return block_fault(block, DIAG_E0253, item->span, "`julia` needs a vector of 2 after it");
+    }
+    *point = vec3(value.v[0], value.v[1], 0.0);
+    return true;
+}
+
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     const SchemaProperty direction = {property->word, TYPE_VECTOR, ACTION_NONE,
@@ -242,7 +257,10 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     if (info->blocks) {
         pattern->frequency = 0.0; // the numbers of blocks stay as they are
     }
-    if (info->has_direction && !block_value(block, &direction, item->span)) {
+    bool is_read = !info->has_direction    ? true
+                   : type == PATTERN_JULIA ? read_plane_point(block, item, &pattern->vector)
+                                           : block_value(block, &direction, item->span);
+    if (!is_read) {
         return false;
     }
     if (info->has_direction && info->has_count) {
