@@ -181,13 +181,18 @@ static void filter_pass(Size size, const double *from, bool along_rows, const do
     }
 }
 
-// The product of a filter along the rows and one along the columns, times `weight`, added to `to`.
-static void filter_add(Size size, const double *from, const double across[TAPS], const double down[TAPS], double weight,
-                       double *spare, double *to)
+// The product of a filter along the rows and one along the columns, times `weight`.
+typedef struct Filter {
+    const double *across, *down; // TAPS of each
+    double weight;
+} Filter;
+
+// What a filter makes of a plane, added to `to`.
+static void filter_add(Size size, const double *from, Filter filter, double *spare, double *to)
 {
     memset(spare, 0, size_pixels(size) * sizeof *spare);
-    filter_pass(size, from, true, across, 1.0, spare);
-    filter_pass(size, spare, false, down, weight, to);
+    filter_pass(size, from, true, filter.across, 1.0, spare);
+    filter_pass(size, spare, false, filter.down, filter.weight, to);
 }
 
 // Blurs a plane as the eye does. Each Gaussian is separable, their sum is not; all taps together add up to 1.
@@ -207,7 +212,7 @@ static void blur(Size size, const Gaussian gaussians[2], const double *from, dou
     }
     for (int k = 0; k < 2; k++) {
         if (weights[k] > 0.0) {
-            filter_add(size, from, taps[k], taps[k], weights[k] / total, spare, to);
+            filter_add(size, from, (Filter){taps[k], taps[k], weights[k] / total}, spare, to);
         }
     }
 }
@@ -251,8 +256,8 @@ static void gradient(Size size, const double *from, const double slope[TAPS], co
 
     memset(work[1], 0, pixels * sizeof *work[1]);
     memset(work[2], 0, pixels * sizeof *work[2]);
-    filter_add(size, from, slope, smooth, 1.0, work[0], work[1]);
-    filter_add(size, from, smooth, slope, 1.0, work[0], work[2]);
+    filter_add(size, from, (Filter){slope, smooth, 1.0}, work[0], work[1]);
+    filter_add(size, from, (Filter){smooth, slope, 1.0}, work[0], work[2]);
     for (size_t i = 0; i < pixels; i++) {
         to[i] = hypot(work[1][i], work[2][i]);
     }

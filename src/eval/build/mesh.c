@@ -177,12 +177,18 @@ static bool is_degenerate(const double c[3][3])
     return vec3_equal(vec3_cross(vec3_sub(b, a), vec3_sub(d, a)), vec3(0.0, 0.0, 0.0));
 }
 
-static bool add_triangle(MeshReader *reader, const AstNode *item, double corners[3][3], double normals[3][3],
-                         bool is_smooth, uint32_t texture, const TriangleUv *uv)
+typedef struct ReadTriangle {
+    double corners[3][3], normals[3][3];
+    bool is_smooth; // it has normals
+    uint32_t texture;
+    TriangleUv uv;
+} ReadTriangle;
+
+static bool add_triangle(MeshReader *reader, const AstNode *item, ReadTriangle *own)
 {
-    if (is_degenerate((const double(*)[3])corners)) {
+    if (is_degenerate((const double(*)[3])own->corners)) {
         eval_warn(reader->block->ev, DIAG_W0348, item->span, "a triangle with its corners on one line is not drawn");
-        reader->corner_count -= (texture & MESH_FACE_OF_CORNERS) != 0;
+        reader->corner_count -= (own->texture & MESH_FACE_OF_CORNERS) != 0;
         return true;
     }
     if (!mesh_reader_has_room(reader, &reader->faces, 0) || !mesh_reader_has_room(reader, &reader->face_normals, 0) ||
@@ -196,15 +202,16 @@ static bool add_triangle(MeshReader *reader, const AstNode *item, double corners
     for (uint32_t i = 0; i < 3; i++) {
         uint32_t *normal = &((uint32_t(*)[3])reader->face_normals.items)[reader->faces.count][i];
         ((uint32_t(*)[3])reader->faces.items)[reader->faces.count][i] = (uint32_t)reader->vertices.count;
-        *normal = is_smooth ? (uint32_t)reader->normals.count : MESH_FLAT;
-        if (!add_corner(reader, corners[i], item->span) || (is_smooth && !add_normal(reader, normals[i], item->span))) {
+        *normal = own->is_smooth ? (uint32_t)reader->normals.count : MESH_FLAT;
+        if (!add_corner(reader, own->corners[i], item->span) ||
+            (own->is_smooth && !add_normal(reader, own->normals[i], item->span))) {
             return false;
         }
     }
-    if (!add_uv(reader, uv)) {
+    if (!add_uv(reader, &own->uv)) {
         return false;
     }
-    ((uint32_t *)reader->face_textures.items)[reader->faces.count] = texture;
+    ((uint32_t *)reader->face_textures.items)[reader->faces.count] = own->texture;
     reader->face_textures.count = reader->face_normals.count = ++reader->faces.count;
     return true;
 }
@@ -212,15 +219,13 @@ static bool add_triangle(MeshReader *reader, const AstNode *item, double corners
 static bool read_triangle(MeshReader *reader, const AstNode *item)
 {
     Cursor cursor;
-    double corners[3][3], normals[3][3];
-    uint32_t texture = 0;
-    TriangleUv uv = {.is_given = false};
-    bool is_smooth = item->symbol == (Symbol)W_smooth_triangle, is_fine = true;
+    ReadTriangle own = {.is_smooth = item->symbol == (Symbol)W_smooth_triangle, .uv = {.is_given = false}};
+    bool is_fine = true;
     cursor_open(&cursor, reader->block->ev, item->a, item->span);
-    for (int i = 0; is_fine && i < (is_smooth ? 6 : 3); i++) {
+    for (int i = 0; is_fine && i < (own.is_smooth ? 6 : 3); i++) {
         Vec3 vector;
         Span span;
-        double *into = is_smooth ? (i % 2 ? normals : corners)[i / 2] : corners[i];
+        double *into = own.is_smooth ? (i % 2 ? own.normals : own.corners)[i / 2] : own.corners[i];
         cursor_take_comma(&cursor);
         is_fine = cursor_vector3(&cursor, &vector, &span);
         if (is_fine) {
@@ -229,9 +234,9 @@ static bool read_triangle(MeshReader *reader, const AstNode *item)
             into[2] = vector.z;
         }
     }
-    is_fine = is_fine && read_triangle_end(reader, &cursor, &texture, &uv);
+    is_fine = is_fine && read_triangle_end(reader, &cursor, &own.texture, &own.uv);
     cursor_close(&cursor);
-    return is_fine && add_triangle(reader, item, corners, normals, is_smooth, texture, &uv);
+    return is_fine && add_triangle(reader, item, &own);
 }
 
 bool mesh_body(Block *block)

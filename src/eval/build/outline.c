@@ -149,16 +149,27 @@ bool outline_pen_begin(Block *block, OutlinePen *pen, OutlineCurve curve, bool i
     return true;
 }
 
-static bool make_outline(Block *block, OutlineCurve curve, bool is_conic, const OutlinePoint *points, size_t count,
-                         Span span, Numbers *outline)
+// An outline as it is written.
+typedef struct OutlineText {
+    OutlineCurve curve;
+    bool is_conic;
+    const OutlinePoint *points;
+    size_t count;
+    Span span;
+} OutlineText;
+
+static bool make_outline(Block *block, const OutlineText *text, Numbers *outline)
 {
+    const OutlineCurve curve = text->curve;
+    const OutlinePoint *points = text->points;
+    size_t count = text->count;
     OutlinePen pen;
-    if (!outline_pen_begin(block, &pen, curve, is_conic, count + 1, span)) {
+    if (!outline_pen_begin(block, &pen, curve, text->is_conic, count + 1, text->span)) {
         return false;
     }
-    bool is_drawn = curve == CURVE_LINEAR   ? draw_linear(block, &pen, points, count, span)
-                    : curve == CURVE_BEZIER ? draw_bezier(block, &pen, points, count, span)
-                                            : draw_spline(block, &pen, curve, points, count, span);
+    bool is_drawn = curve == CURVE_LINEAR   ? draw_linear(block, &pen, points, count, text->span)
+                    : curve == CURVE_BEZIER ? draw_bezier(block, &pen, points, count, text->span)
+                                            : draw_spline(block, &pen, curve, points, count, text->span);
     *outline = (Numbers){pen.items, pen.count};
     return is_drawn;
 }
@@ -296,7 +307,7 @@ bool prism_body(Block *block)
     prism->heights[0] = fmin(heights[0], heights[1]);
     prism->heights[1] = fmax(heights[0], heights[1]);
     prism->is_control_bound = curve == CURVE_BEZIER;
-    return make_outline(block, curve, is_conic, points, count, span, &prism->outline);
+    return make_outline(block, &(OutlineText){curve, is_conic, points, count, span}, &prism->outline);
 }
 
 // ---- the plane of a polygon
@@ -382,7 +393,7 @@ bool polygon_body(Block *block)
         Vec3 own = transform_point(&back, corners[i]);
         points[i] = (OutlinePoint){own.x, own.y};
     }
-    return !has_plane || make_outline(block, CURVE_LINEAR, false, points, count, span, &polygon->outline);
+    return !has_plane || make_outline(block, &(OutlineText){CURVE_LINEAR, false, points, count, span}, &polygon->outline);
 }
 
 // ---- shapes

@@ -131,20 +131,21 @@ static bool is_taken_away(const ProbeNode *group, const UnionMember *member)
     return group != NULL && group->kind == KIND_DIFFERENCE && member != members_of(group);
 }
 
-// Recursive: object_members keeps trees from growing deeper than the limit.
-static bool add_object(Eval *ev, Probe *probe, const ProbeNode *around, const UnionMember *member, SchemaKind kind,
-                       const void *object, const Transform *outer)
+// The object of `own`, of which kind, object, member and what is around are set. Recursive: object_members keeps trees
+// from growing deeper than the limit.
+static bool add_object(Eval *ev, Probe *probe, ProbeNode own, const Transform *outer)
 {
-    const ObjectPart *part = object;
-    if (kind == KIND_LIGHT_SOURCE) {
+    const ObjectPart *part = own.object;
+    const ProbeNode *around = own.around;
+    if (own.kind == KIND_LIGHT_SOURCE) {
         return true;
     }
     ProbeNode *node = arena_alloc(&ev->program, sizeof *node);
     if (node == NULL) {
         return eval_no_memory(ev, part->span);
     }
-    *node = (ProbeNode){.around = around, .member = member, .object = object, .kind = kind};
-    bool is_taken = is_taken_away(around, member);
+    *node = own;
+    bool is_taken = is_taken_away(around, own.member);
     node->is_turned = (around != NULL && around->is_turned) != (part->is_inverse != is_taken);
     node->was_turned = (around != NULL && around->was_turned) || part->was_turned || is_taken;
     if (!transform_invert(outer, &node->to_outer)) {
@@ -152,12 +153,13 @@ static bool add_object(Eval *ev, Probe *probe, const ProbeNode *around, const Un
     }
     Transform inner = transform_compose(part->transform, *outer);
     node->is_moved = !transform_is_identity(&inner);
-    node->is_stretched = (around != NULL && around->is_stretched) || extent_is_stretched(kind, object);
-    if (!object_is_group(kind)) {
+    node->is_stretched = (around != NULL && around->is_stretched) || extent_is_stretched(own.kind, own.object);
+    if (!object_is_group(own.kind)) {
         return add_leaf(ev, probe, node, &inner);
     }
     for (const UnionMember *each = members_of(node); each != NULL; each = each->next) {
-        if (!add_object(ev, probe, node, each, each->kind, each->object, &inner)) {
+        const ProbeNode inside = {.around = node, .member = each, .object = each->object, .kind = each->kind};
+        if (!add_object(ev, probe, inside, &inner)) {
             return false;
         }
     }
@@ -215,7 +217,8 @@ static Probe *find_probe(Eval *ev, const Value *object, Span span)
     ev->probes.items[ev->probes.count++] = probe;
     scene_init(&probe->shapes);
     Transform world = transform_identity();
-    if (!add_object(ev, probe, NULL, NULL, (SchemaKind)object->block, object->record, &world)) {
+    const ProbeNode whole = {.object = object->record, .kind = (SchemaKind)object->block};
+    if (!add_object(ev, probe, whole, &world)) {
         return NULL;
     }
     probe->geometry = ev->options.tracer->open(&probe->shapes);
