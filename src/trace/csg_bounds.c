@@ -15,6 +15,8 @@
 
 #include <math.h>
 
+#include "trace/half_spaces.h"
+
 enum { ROUNDS_MOST = 8, ROUNDS_MORE = 2, FRAMES_MOST = 4 };
 static const double DROPPED = 0x1p-44, SMALLEST = 0x1p-16, SLACK = 0x1p-10;
 static const double ROOTS_OFF = 0x1p-22; // roots that nearly are one may be off by the root of some u
@@ -307,4 +309,19 @@ Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
         inner[i] = BOUNDS_ALL;
     }
     return bounds;
+}
+
+Bounds csg_planes_bounds(const ShapeTable *table, const CsgTree *csg)
+{
+    enum { MOST = 64 }; // more than that only make the box smaller
+    HalfSpace spaces[MOST];
+    Bounds bounds;
+    uint32_t count = 0;
+    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count && count < MOST; i++) {
+        const PreparedPrimitive *primitive = &table->primitives[i];
+        if (primitive->decides && primitive->kind == PRIMITIVE_PLANE) {
+            spaces[count++] = (HalfSpace){primitive->data[0], primitive->data[1].x};
+        }
+    }
+    return half_spaces_bounds(spaces, count, &bounds) ? bounds : BOUNDS_ALL;
 }

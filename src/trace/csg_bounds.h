@@ -13,4 +13,7 @@
 Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds bounds, Bounds *inner,
                   Bounds *next);
 
+// Nothing is seen of a composite outside of the planes that decide; where they enclose a space, the box of that.
+Bounds csg_planes_bounds(const ShapeTable *table, const CsgTree *csg);
+
 #endif

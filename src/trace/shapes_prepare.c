@@ -8,7 +8,6 @@
 #include "scene/primitive_reach.h"
 #include "trace/csg_bounds.h"
 #include "trace/csg_primitives.h"
-#include "trace/half_spaces.h"
 #include "trace/shapes_clusters.h"
 
 enum {
@@ -105,22 +104,6 @@ static void node_take(const TreeNode *node, Bounds *bounds, const Bounds *child)
     *bounds = joins ? bounds_join(*bounds, *child) : bounds_meet(*bounds, *child);
 }
 
-// Nothing is seen of a CSG tree outside of the planes that decide; where they enclose a space, of that the box.
-static Bounds planes_bounds(const ShapeTable *table, const CsgTree *csg)
-{
-    enum { MOST = 64 }; // more than that only make the box smaller
-    HalfSpace spaces[MOST];
-    Bounds bounds;
-    uint32_t count = 0;
-    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count && count < MOST; i++) {
-        const PreparedPrimitive *primitive = &table->primitives[i];
-        if (primitive->decides && primitive->kind == PRIMITIVE_PLANE) {
-            spaces[count++] = (HalfSpace){primitive->data[0], primitive->data[1].x};
-        }
-    }
-    return half_spaces_bounds(spaces, count, &bounds) ? bounds : BOUNDS_ALL;
-}
-
 // What the nodes count of children, from the leaves up, and the box of what is seen: that of the root, of which it does
 // not matter whether it is taken from all space, within that of all surfaces. Children stand behind their parents.
 static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *node_bounds,
@@ -149,7 +132,7 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
     }
     Bounds bounds = bounds_meet(surface, node_bounds[first]);
     if (!bounds_are_finite(bounds)) {
-        bounds = bounds_meet(bounds, planes_bounds(table, csg));
+        bounds = bounds_meet(bounds, csg_planes_bounds(table, csg));
     }
     bool may_be_less = csg->primitive_count > 1 && !bounds_are_finite(surface);
     return may_be_less ? csg_bounds(table, csg, surfaces, bounds, node_bounds, spare) : bounds;

@@ -20,6 +20,8 @@ typedef struct Family {
     unsigned kinds;      // of the others, a bit for each PrimitiveKind; 0: all of `simple`
 } Family;
 
+#define QUADRICS (1u << 31) // its polynomials are
+
 enum { SIMPLE = 5 }; // so many of these have the families that name none
 static const PrimitiveKind simple[] = {
     PRIMITIVE_BOX,   PRIMITIVE_CONE,      PRIMITIVE_DISC, PRIMITIVE_TRIANGLE, PRIMITIVE_SMOOTH_TRIANGLE,
@@ -53,6 +55,10 @@ static const Family kinds[] = {
      1u << PRIMITIVE_TORUS | 1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_CONE},
     {"tori in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_TORUS},
     {"closed quartics in one another", 0, 100, 0, 0, 0, 0.5, 2.0, true, 1u << PRIMITIVE_POLYNOMIAL},
+    {"quadrics", 0, 8, 0, 0, 0, 0.1, 3.0, false, QUADRICS | 1u << PRIMITIVE_POLYNOMIAL},
+    {"thin quadrics far away, and boxes", 0, 6, 0, 0, 3, 2e-3, 0.5, false,
+     QUADRICS | 1u << PRIMITIVE_POLYNOMIAL | 1u << PRIMITIVE_BOX},
+    {"quadrics in one another", 0, 20, 0, 1, 0, 0.3, 2.0, true, QUADRICS | 1u << PRIMITIVE_POLYNOMIAL},
 };
 
 // A closed quartic: a torus, a rounded cube, one of some bumps, or two drops that meet.
@@ -140,11 +146,28 @@ static void set_prism(Random *random, Primitive *primitive)
     primitive->list = outlines[own];
 }
 
-static Primitive part_at(Random *random, PrimitiveKind kind, double size, Vec3 at)
+// A quadric: an ellipsoid, a cylinder, a cone, a hyperboloid, a paraboloid, or one that lies across the axes.
+static void set_quadric(Random *random, Primitive *primitive)
+{
+    enum { KINDS = 6, TERMS = 10, COUNT = POLYNOMIAL_HEAD + 3 + TERMS };
+    static const double terms[KINDS][TERMS] = {
+        {1, 0, 0, 0.2, 2, 0, 0, 1.5, 0.1, -1}, {1, 0, 0, 0, 0, 0, 0, 1, 0, -1},
+        {1, 0, 0, 0, -1, 0, 0, 1, 0, 0},       {1, 0, 0, 0, -1, 0, 0, 1, 0.2, -0.5},
+        {1, 0, 0, 0, 0, 0, -1, 1, 0, 0},       {1, 0.5, -0.2, 0, -0.3, 1.1, 0.3, 0.4, 0, -0.6}};
+    static double lists[KINDS][COUNT];
+    unsigned which = (unsigned)(random_bits(random) % KINDS);
+    double *list = lists[which];
+    memcpy(list + POLYNOMIAL_HEAD + 3, terms[which], sizeof terms[which]);
+    list[0] = 2;
+    polynomial_complete(list);
+    polynomial_part(&(Numbers){list, COUNT}, primitive);
+}
+
+static Primitive part_at(Random *random, PrimitiveKind kind, double size, Vec3 at, bool has_quadrics)
 {
     Primitive primitive = random_primitive(random, kind, size);
     if (kind == PRIMITIVE_POLYNOMIAL) {
-        set_quartic(random, &primitive);
+        (has_quadrics ? set_quadric : set_quartic)(random, &primitive);
     } else if (kind == PRIMITIVE_BLOB) {
         set_blob(random, &primitive);
     } else if (kind == PRIMITIVE_PRISM) {
@@ -162,8 +185,8 @@ static void add_composite(Scene *scene, Random *random, const Family *family)
 {
     uint32_t root;
     Vec3 at = random_point(random, family->spread);
-    Primitive ball = part_at(random, PRIMITIVE_SPHERE, family->size, at),
-              box = part_at(random, PRIMITIVE_BOX, family->size, at);
+    Primitive ball = part_at(random, PRIMITIVE_SPHERE, family->size, at, false),
+              box = part_at(random, PRIMITIVE_BOX, family->size, at, false);
     if (!scene_begin_composite(scene, 0, 0) || !scene_add_node(scene, NODE_INTERSECTION, false, NODE_NONE, 0, &root)) {
         abort();
     }
@@ -178,7 +201,7 @@ static void add_composite(Scene *scene, Random *random, const Family *family)
 static Primitive random_solid(Random *random, const Family *family, PrimitiveKind kind, const Primitive *last)
 {
     double size = family->size * exp(random_between(random, -1, 0.5));
-    Primitive primitive = part_at(random, kind, size, random_point(random, family->spread));
+    Primitive primitive = part_at(random, kind, size, random_point(random, family->spread), family->kinds & QUADRICS);
     uint64_t bits = random_bits(random);
     bool has_inside = kind == PRIMITIVE_SPHERE || kind == PRIMITIVE_BOX || kind == PRIMITIVE_CONE ||
                       kind == PRIMITIVE_TORUS || kind == PRIMITIVE_POLYNOMIAL || kind == PRIMITIVE_BLOB || kind == PRIMITIVE_PRISM;
@@ -425,7 +448,7 @@ static void test_told(uint64_t seed, PrimitiveKind kind, double most)
     for (int turn = 0; turn < 300; turn++) {
         Scene scene;
         scene_init(&scene);
-        Primitive primitive = part_at(&random, kind, 1.0, random_point(&random, 3.0));
+        Primitive primitive = part_at(&random, kind, 1.0, random_point(&random, 3.0), false);
         add_primitive(&scene, &primitive);
         Geometry *g = prepare(&scene, 0);
         for (int i = 0; i < 200; i++) {
