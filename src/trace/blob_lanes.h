@@ -51,16 +51,43 @@ RT_ALWAYS_INLINE unsigned blob_lanes_node(const BlobNode *node, const Doubles f[
     return doubles_ge(out * (1.0 + 0x1p-40), in);
 }
 
-// The line's part between two planes across a rod, and what it is there.
-RT_ALWAYS_INLINE void blob_lanes_rod(BlobNear *near, const Doubles o[3], const Doubles d[3])
+// Takes what of the lines is within 1 of a place on a rod's axis into what is near the rod.
+RT_ALWAYS_INLINE void blob_lanes_end(BlobNear *near, const Doubles o[3], const Doubles d[3], double height,
+                                     DoublesMask *is_met)
 {
-    double high = near->component->height + 1.0;
+    const Doubles zero = doubles_splat(0.0);
+    const Doubles from[3] = {o[0], o[1], o[2] - height};
+    Doubles middle = -(from[0] * d[0] + from[1] * d[1] + from[2] * d[2]) / near->steep, least2 = zero;
+    for (int axis = 0; axis < 3; axis++) {
+        Doubles at = from[axis] + middle * d[axis];
+        least2 += at * at;
+    }
+    DoublesMask is_there = least2 < 1.0;
+    Doubles half = doubles_sqrt(doubles_choose(is_there, 1.0 - least2, zero) / near->steep);
+    near->enter = doubles_choose(is_there, doubles_min(near->enter, middle - half), near->enter);
+    near->leave = doubles_choose(is_there, doubles_max(near->leave, middle + half), near->leave);
+    *is_met |= is_there;
+}
+
+// What of the lines is near a rod: within the cylinder, which they are in between `enter` and `leave` where they meet
+// it, between its ends, and within the balls there. No more than that, which is within the component's box: whether a
+// line is near does not depend on which boxes others come to.
+RT_ALWAYS_INLINE void blob_lanes_rod(BlobNear *near, const Doubles o[3], const Doubles d[3], DoublesMask *is_met)
+{
+    const Doubles far = doubles_splat((double)INFINITY);
+    const double height = near->component->height;
     Doubles rise = doubles_choose(doubles_abs(d[2]) > 0x1p-400, d[2], doubles_splat(0x1p-400));
-    Doubles first = (-1.0 - o[2]) / rise, second = (high - o[2]) / rise;
-    near->enter = doubles_max(near->enter, doubles_min(first, second));
-    near->leave = doubles_min(near->leave, doubles_max(first, second));
+    Doubles first = (0.0 - o[2]) / rise, second = (height - o[2]) / rise;
     near->z = o[2];
     near->rise = d[2];
+    near->steep += d[2] * d[2];
+    near->enter = doubles_max(near->enter, doubles_min(first, second));
+    near->leave = doubles_min(near->leave, doubles_max(first, second));
+    *is_met &= near->enter < near->leave;
+    near->enter = doubles_choose(*is_met, near->enter, far);
+    near->leave = doubles_choose(*is_met, near->leave, -far);
+    blob_lanes_end(near, o, d, 0.0, is_met);
+    blob_lanes_end(near, o, d, height, is_met);
 }
 
 // What a component adds to what is known of all; false when no line comes to it.
@@ -98,9 +125,7 @@ RT_ALWAYS_INLINE bool blob_lanes_add(const BlobComponent *component, const Doubl
     near->leave = near->middle + half;
     near->steep = square;
     if (is_rod) {
-        blob_lanes_rod(near, own, along);
-        near->steep += along[2] * along[2];
-        is_met &= near->enter < near->leave;
+        blob_lanes_rod(near, own, along, &is_met);
         size += most * doubles_max(doubles_abs(near->enter), doubles_abs(near->leave));
     }
     is_met &= near->leave > 0.0;

@@ -87,6 +87,35 @@ static bool cross_between(const Numbers *outline, const Ray *ray, const RayInter
     return answer == OUTLINE_FAR || is_inside_end == outline_holds(outline, (OutlinePoint){last.x, last.z});
 }
 
+// The same of a ray that starts on the wall, of what is behind its start up to where it is beyond the ends. False: more
+// than its own crossing is where it starts, or what it crosses does not fit to what is inside where it ends.
+static bool cross_behind(const Numbers *outline, const Ray *ray, double leave, bool inward, OutlinePoint *points,
+                         WallCrossings *wall)
+{
+    Vec3 o = ray->origin, d = ray->direction, last = ray_at(*ray, leave);
+    double square = d.x * d.x + d.z * d.z, size = greater_of(fabs(o.x), fabs(o.z)), room = 0x1p-30 * leave;
+    double aside = 0x1p-40 * size; // the start may be off the wall by rounding
+    OutlineLine line = line_of(ray);
+    line.low = (OutlinePoint){less_of(o.x, last.x) - aside, less_of(o.z, last.z) - aside};
+    line.high = (OutlinePoint){greater_of(o.x, last.x) + aside, greater_of(o.z, last.z) + aside};
+    OutlineAnswer answer = OUTLINE_FAR;
+    uint32_t found = square > 0.0 ? outline_cross(outline, &line, points, &answer) : 0, own = 0;
+    wall->count = 0;
+    wall->is_inside = inward;
+    for (uint32_t i = 0; i < found; i++) {
+        double t = ((points[i].u - o.x) * d.x + (points[i].v - o.z) * d.z) / square;
+        if (fabs(t - leave) <= room) {
+            return false;
+        }
+        own += fabs(t) <= room;
+        wall->at[wall->count] = (Crossing){t, PRISM_WALL};
+        wall->count += t > room && t < leave;
+    }
+    bool is_inside_end = inward != (bool)(wall->count & 1);
+    return own == 1 && answer == OUTLINE_NEAR &&
+           is_inside_end == outline_holds(outline, (OutlinePoint){last.x, last.z});
+}
+
 static void cross_conic(const Numbers *outline, const Ray *ray, OutlinePoint *points, WallCrossings *wall)
 {
     Vec3 o = ray->origin, d = ray->direction, n = vec3_cross(o, d);
@@ -139,16 +168,17 @@ unsigned prism_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray 
     Crossing at[most];
     OutlinePoint points[most];
     WallCrossings wall = {.at = at};
-    if (!is_between || !cross_between(outline, ray, &slab, points, &wall)) {
+    bool is_start = left.side == PRISM_WALL,
+         is_behind = is_start && !is_conic && slab.leave > 0.0 && !isinf(slab.leave);
+    is_behind = is_behind && cross_behind(outline, ray, slab.leave, left.inward, points, &wall);
+    if (!is_behind && (!is_between || !cross_between(outline, ray, &slab, points, &wall))) {
         wall.is_inside = false;
         wall.count = 0;
         (is_conic ? cross_conic : cross_straight)(outline, ray, points, &wall);
     }
     crossings_sort(at, wall.count);
-    bool is_inside = wall.is_inside, is_start = left.side == PRISM_WALL && wall.count > 0;
-    if (is_start) {
-        is_inside = left.inward;
-    }
+    is_start = is_start && !is_behind && wall.count > 0;
+    bool is_inside = is_start ? left.inward : wall.is_inside;
     RayInterval own = INTERVAL_ALL;
     uint32_t first = is_start ? crossings_first_behind(at, wall.count, wall.is_inside, &is_inside) : 0;
     for (uint32_t i = first; i <= wall.count; i++) {
