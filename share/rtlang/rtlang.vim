@@ -41,17 +41,17 @@ syn keyword rtlangWord marble material material_map matrix max_gradient max_inte
 syn keyword rtlangWord max_trace max_trace_level media_attenuation media_interaction merge mesh mesh2 metallic
 syn keyword rtlangWord metric mm_per_unit mortar no_bump_scale no_image no_radiosity no_reflection no_shadow
 syn keyword rtlangWord noise_generator normal normal_map number_of_waves object octaves offset omega omnimax
-syn keyword rtlangWord once onion open orient orientation orthographic panoramic parallel pattern perspective
-syn keyword rtlangWord pgm phase phong phong_size pigment pigment_map pigment_pattern planar plane png
-syn keyword rtlangWord point_at poly poly_wave polygon ppm precision premultiplied prism quadric quartic
-syn keyword rtlangWord quaternion quick_color quick_colour quilted radial radius rainbow ramp_wave reflection
-syn keyword rtlangWord reflection_exponent refraction repeat right ripples rotate roughness scale scallop_wave
-syn keyword rtlangWord shadowless sine_wave sky sky_sphere slice slope slope_map smooth smooth_triangle solid
-syn keyword rtlangWord sor specular sphere sphere_sweep spherical spiral1 spiral2 split_union spotlight
-syn keyword rtlangWord spotted sqr strength sturm superellipsoid text texture texture_map tga thickness
-syn keyword rtlangWord threshold tiff tightness tiles tolerance toroidal torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up uv_mapping variance warp
-syn keyword rtlangWord water_level waves width wood wrinkles
+syn keyword rtlangWord once onion open orient orientation orthographic ovus panoramic parallel parametric
+syn keyword rtlangWord pattern perspective pgm phase phong phong_size pigment pigment_map pigment_pattern
+syn keyword rtlangWord planar plane png point_at poly poly_wave polygon ppm precision precompute premultiplied
+syn keyword rtlangWord prism quadric quartic quaternion quick_color quick_colour quilted radial radius rainbow
+syn keyword rtlangWord ramp_wave reflection reflection_exponent refraction repeat right ripples rotate
+syn keyword rtlangWord roughness scale scallop_wave shadowless sine_wave sky sky_sphere slice slope slope_map
+syn keyword rtlangWord smooth smooth_triangle solid sor specular sphere sphere_sweep spherical spiral1 spiral2
+syn keyword rtlangWord split_union spotlight spotted sqr strength sturm superellipsoid text texture
+syn keyword rtlangWord texture_map tga thickness threshold tiff tightness tiles tolerance toroidal torus
+syn keyword rtlangWord transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union
+syn keyword rtlangWord up uv_mapping variance warp water_level waves width wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

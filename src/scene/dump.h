@@ -27,6 +27,8 @@ void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 const Texture *dump_fields_of(const Scene *scene, MaterialIndex material);
 // All of a blob but its head; `texture` is NULL or that of its components.
 void dump_blob(const Scene *scene, const Primitive *primitive, const Texture *texture, TextBuffer *out);
+// All of a parametric surface but its head.
+void dump_parametric(const Scene *scene, const Primitive *primitive, TextBuffer *out);
 // All of an isosurface but its head.
 void dump_isosurface(const Scene *scene, const Primitive *primitive, TextBuffer *out);
 void dump_warps(const Scene *scene, const Pattern *pattern, TextBuffer *out);

@@ -12,6 +12,7 @@
 #include "scene/julia.h"
 #include "scene/dump.h"
 #include "scene/primitive_reach.h"
+#include "scene/ovus.h"
 #include "scene/polynomial.h"
 #include "scene/outline.h"
 #include "scene/sor.h"
@@ -492,6 +493,30 @@ static void superellipsoid_dump(const Primitive *primitive, TextBuffer *out)
     dump_numbers(out, &primitive->data[0].x, 2);
 }
 
+// ---- ovus
+
+static double egg_support(const Primitive *primitive, Vec3 n)
+{
+    Ovus ovus = ovus_of(primitive->data);
+    return ovus_support(&ovus, n);
+}
+
+static bool egg_holds(const Primitive *primitive, Vec3 p)
+{
+    Ovus ovus = ovus_of(primitive->data);
+    Vec3 normal;
+    return ovus_distance(&ovus, p, &normal) < 0.0;
+}
+
+// Its bottom ball is about the origin in the text, and half of the top radius below it here.
+static void egg_dump(const Primitive *primitive, TextBuffer *out)
+{
+    dump_number(out, "", primitive->data[0].x);
+    dump_number(out, ", ", primitive->data[0].y);
+    dump_number(out, " translate ", primitive->data[0].z);
+    text_append(out, "*y");
+}
+
 // ---- sphere sweep
 
 static bool sweep_holds(const Primitive *primitive, Vec3 p)
@@ -732,6 +757,15 @@ static const PrimitiveClass classes[] = {
                                   .support = superellipsoid_support,
                                   .holds = superellipsoid_holds,
                                   .dump = superellipsoid_dump},
+    [PRIMITIVE_OVUS] = {.word = "ovus",
+                        .head = "ovus { ",
+                        .family = FAMILY_STRAIGHT,
+                        .surface = PRIMITIVE_OVUS,
+                        .key_count = 3,
+                        .interval_count = 2,
+                        .support = egg_support,
+                        .holds = egg_holds,
+                        .dump = egg_dump},
     [PRIMITIVE_SWEEP] = {.word = "sphere sweep",
                          .head = "sphere_sweep { ",
                          .family = FAMILY_STRAIGHT,
@@ -769,6 +803,16 @@ static const PrimitiveClass classes[] = {
                               .is_sized = true,
                               .support = box_support,
                               .holds = surface_holds,
+                              .measure = box_measure},
+    [PRIMITIVE_PARAMETRIC] = {.word = "parametric surface",
+                              .head = "parametric {",
+                              .family = FAMILY_ISOSURFACE,
+                              .surface = PRIMITIVE_PARAMETRIC,
+                              .key_count = 3,
+                              .interval_count = 2,
+                              .has_list = true,
+                              .is_sized = true,
+                              .support = box_support,
                               .measure = box_measure},
     [PRIMITIVE_MESH] = {.word = "mesh",
                         .head = "",

@@ -213,6 +213,8 @@ static void try_properties(const InternTable *names, Tally *sums)
         [KIND_SUPERELLIPSOID] = "<1, 1>",
         [KIND_SPHERE_SWEEP] = "linear_spline 2, 0, 1, x, 1",
         [KIND_JULIA_FRACTAL] = "<0, 0, 0.5, 0>",
+        [KIND_PARAMETRIC] = "function { u } function { v } function { 0 } <0, 0>, <1, 1>",
+        [KIND_OVUS] = "1, 0.5",
         [KIND_SOR] = "4, <0, 0>, <1, 0>, <1, 1>, <0, 1>",
         [KIND_POLYGON] = "4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
         [KIND_MESH] = "triangle { 0, x, y }",

@@ -242,7 +242,7 @@ static Rgb gather_layer(void *client, const TextureLayer *layer)
 Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, ShapeId shape, Vec3 direction)
 {
     Vec3 room;
-    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
+    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, direction, &room);
     Vec3 normal = vec3_dot(surface->normal, direction) > 0.0 ? vec3_neg(surface->normal) : surface->normal;
     CausticSum sum = {normal, direction, 45.0 * p->interiors[compound->interior].caustics};
     TextureSight sight = {surface->point, uv, &normal, &direction, true};
@@ -253,7 +253,7 @@ Rgb shade_layers_through(const Prepared *p, const Compound *compound, const Surf
                          Vec3 direction)
 {
     Vec3 room;
-    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
+    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, direction, &room);
     bool turns = p->textures.faces && vec3_dot(surface->normal, direction) > 0.0;
     Vec3 normal = turns ? vec3_neg(surface->normal) : surface->normal;
     TextureSight sight = {surface->point, uv, &normal, &direction, true};
