@@ -410,6 +410,8 @@ lang_cases = \
   %D%/lang/settings.test \
   %D%/lang/isosurface.test \
   %D%/lang/julia.test \
+  %D%/lang/parametric.test \
+  %D%/lang/ovus.test \
   %D%/lang/shapes.test \
   %D%/lang/sweep.test \
   %D%/lang/sky.test \

@@ -40,7 +40,7 @@ static uint64_t part_crossings_most(const Primitive *primitive)
     if (class->is_mesh) {
         return (uint64_t)primitive->mesh.mesh->face_count + 8; // a field of heights has sides and water, too
     }
-    if (primitive->kind == PRIMITIVE_ISOSURFACE) {
+    if (primitive->kind == PRIMITIVE_ISOSURFACE || primitive->kind == PRIMITIVE_PARAMETRIC) {
         return (uint64_t)1 << 24; // its accuracy is no finer
     }
     Primitive member = *primitive;

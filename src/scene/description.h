@@ -251,7 +251,14 @@ typedef struct BlobDesc {
     Numbers list; // all that a part wants of it (scene/blob.h)
 } BlobDesc;
 
-// What an isosurface is contained by; of a ball `low` is the middle.
+// A shape's functions.
+typedef struct ShapeFormula {
+    Numbers list;                   // all that a part wants of the shape
+    const FormulaHost *host;        // of the functions, if they ask for noise or patterns; else NULL
+    struct Painted *const *painted; // what their steps ask by number, as a scene's have it by the place of a pattern
+} ShapeFormula;
+
+// What an isosurface, or a parametric surface, is contained by; of a ball `low` is the middle.
 typedef struct ContainerDesc {
     Vec3 low, high;
     double radius;
@@ -266,10 +273,22 @@ typedef struct IsosurfaceDesc {
     int roots_most;
     bool is_open;
     const struct Function *function;
-    Numbers list;                   // all that a part wants of it (scene/isosurface.h)
-    const FormulaHost *host;        // of its function, if that asks for noise or patterns; else NULL
-    struct Painted *const *painted; // what its steps ask by number, as a scene's have it by the place of a pattern
+    ShapeFormula formula; // scene/isosurface.h
 } IsosurfaceDesc;
+
+typedef struct OvusDesc {
+    ObjectPart part;
+    double bottom, top; // radii
+} OvusDesc;
+
+typedef struct ParametricDesc {
+    ObjectPart part;
+    ContainerDesc container;
+    const struct Function *functions[3];
+    double from[2], to[2]; // of u and v
+    double accuracy, max_gradient;
+    ShapeFormula formula; // scene/parametric.h
+} ParametricDesc;
 
 // A component while it is read.
 typedef struct BlobPartDesc {
@@ -477,6 +496,8 @@ typedef union Desc {
     BlobDesc blob;
     BlobPartDesc blob_part;
     IsosurfaceDesc isosurface;
+    ParametricDesc parametric;
+    OvusDesc ovus;
     ContainerDesc container;
     PrismDesc prism;
     PolygonDesc polygon;

@@ -25,6 +25,8 @@ void dump_formula_parts(const Scene *scene, const Pattern *pattern, TextBuffer *
 void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out);
 // The texture that a material is of a blob whose components have some; NULL: it is no such.
 const Texture *dump_fields_of(const Scene *scene, MaterialIndex material);
+// All of a parametric surface but its head.
+void dump_parametric(const Scene *scene, const Primitive *primitive, TextBuffer *out);
 // All of an isosurface but its head.
 void dump_isosurface(const Scene *scene, const Primitive *primitive, TextBuffer *out);
 void dump_warps(const Scene *scene, const Pattern *pattern, TextBuffer *out);

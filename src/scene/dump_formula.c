@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "scene/isosurface.h"
+#include "scene/parametric.h"
 
 static const char *const infix[FORMULA_OPS] = {
     [FORMULA_ADD] = "+", [FORMULA_SUB] = "-", [FORMULA_MUL] = "*", [FORMULA_DIV] = "/",
@@ -247,7 +248,38 @@ void dump_formula(const Scene *scene, const Pattern *pattern, TextBuffer *out)
     write_function(&formulas, pattern->image, out);
 }
 
-// ---- isosurfaces
+// ---- isosurfaces and parametric surfaces
+
+static void dump_container(bool is_round, const double a[3], const double b[3], TextBuffer *out)
+{
+    if (is_round) {
+        dump_vector(out, "\n  contained_by { sphere { ", vec3(a[0], a[1], a[2]));
+        dump_number(out, ", ", b[0]);
+    } else {
+        dump_vector(out, "\n  contained_by { box { ", vec3(a[0], a[1], a[2]));
+        dump_vector(out, ", ", vec3(b[0], b[1], b[2]));
+    }
+}
+
+void dump_parametric(const Scene *scene, const Primitive *primitive, TextBuffer *out)
+{
+    const Parametric *surface = parametric_of(primitive->list.items);
+    Formulas formulas = {scene, parametric_steps(primitive->list.items), true};
+    text_append(out, "\n");
+    for (int axis = 0; axis < 3; axis++) {
+        declare_parts(&formulas, (uint32_t)surface->first[axis], out);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        write_function(&formulas, (uint32_t)surface->first[axis], out);
+        text_append(out, "\n  ");
+    }
+    dump_numbers(out, surface->from, 2);
+    text_append(out, ", ");
+    dump_numbers(out, surface->to, 2);
+    dump_container(surface->is_round != 0.0, surface->low, surface->high, out);
+    dump_number(out, " } } accuracy ", surface->accuracy);
+    dump_number(out, " max_gradient ", surface->max_gradient);
+}
 
 void dump_isosurface(const Scene *scene, const Primitive *primitive, TextBuffer *out)
 {
@@ -256,15 +288,7 @@ void dump_isosurface(const Scene *scene, const Primitive *primitive, TextBuffer 
     text_append(out, "\n");
     declare_parts(&formulas, (uint32_t)surface->first, out);
     write_function(&formulas, (uint32_t)surface->first, out);
-    Vec3 low = vec3(surface->low[0], surface->low[1], surface->low[2]);
-    Vec3 high = vec3(surface->high[0], surface->high[1], surface->high[2]);
-    if (isosurface_is(surface, ISOSURFACE_ROUND)) {
-        dump_vector(out, "\n  contained_by { sphere { ", low);
-        dump_number(out, ", ", high.x);
-    } else {
-        dump_vector(out, "\n  contained_by { box { ", low);
-        dump_vector(out, ", ", high);
-    }
+    dump_container(isosurface_is(surface, ISOSURFACE_ROUND), surface->low, surface->high, out);
     dump_number(out, " } } threshold ", surface->threshold);
     dump_number(out, " accuracy ", surface->accuracy);
     dump_number(out, " max_gradient ", surface->max_gradient);

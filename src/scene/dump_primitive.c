@@ -50,7 +50,9 @@ static void dump_form(const Scene *scene, const Primitive *primitive, TextBuffer
     }
     const PrimitiveClass *class = primitive_class(primitive->kind);
     text_append(out, class->head);
-    if (primitive->kind == PRIMITIVE_ISOSURFACE) {
+    if (primitive->kind == PRIMITIVE_PARAMETRIC) {
+        dump_parametric(scene, primitive, out);
+    } else if (primitive->kind == PRIMITIVE_ISOSURFACE) {
         dump_isosurface(scene, primitive, out);
     } else if (primitive->kind == PRIMITIVE_BLOB) {
         dump_blob(scene, primitive,

@@ -14,10 +14,8 @@
 #include "scene/numbers.h"
 
 enum {
-    ISOSURFACE_OPEN = 1,    // its container has no surface
-    ISOSURFACE_ROUND = 2,   // its container is a ball
-    ISOSURFACE_NOISY = 4,   // some step asks for noise
-    ISOSURFACE_PAINTED = 8, // or a pattern or pigment
+    ISOSURFACE_OPEN = 1,  // its container has no surface
+    ISOSURFACE_ROUND = 2, // its container is a ball
 };
 
 // Surfaces on a line that are seen at most; as many again bound what is cut.

@@ -8,6 +8,7 @@
 
 #include "math/length.h"
 #include "scene/dump.h"
+#include "scene/ovus.h"
 #include "scene/primitive_rows.h"
 
 static bool is_between(double low, double value, double high)
@@ -265,6 +266,30 @@ static void torus_measure(const Primitive *primitive, Vec3 *half, Vec3 *middle)
     *middle = vec3(primitive->data[0].x, 0.0, 0.0);
 }
 
+// ---- ovus
+
+static double egg_support(const Primitive *primitive, Vec3 n)
+{
+    Ovus ovus = ovus_of(primitive->data);
+    return ovus_support(&ovus, n);
+}
+
+static bool egg_holds(const Primitive *primitive, Vec3 p)
+{
+    Ovus ovus = ovus_of(primitive->data);
+    Vec3 normal;
+    return ovus_distance(&ovus, p, &normal) < 0.0;
+}
+
+// Its bottom ball is about the origin in the text, and half of the top radius below it here.
+static void egg_dump(const Primitive *primitive, TextBuffer *out)
+{
+    dump_number(out, "", primitive->data[0].x);
+    dump_number(out, ", ", primitive->data[0].y);
+    dump_number(out, " translate ", primitive->data[0].z);
+    text_append(out, "*y");
+}
+
 // ---- the table
 
 static const PrimitiveClass sphere = {
@@ -378,6 +403,18 @@ static const PrimitiveClass torus = {
     .measure = torus_measure,
 };
 
+static const PrimitiveClass egg = {
+    .word = "ovus",
+    .head = "ovus { ",
+    .family = FAMILY_STRAIGHT,
+    .surface = PRIMITIVE_OVUS,
+    .key_count = 3,
+    .interval_count = 2,
+    .support = egg_support,
+    .holds = egg_holds,
+    .dump = egg_dump,
+};
+
 static const PrimitiveClass *const classes[] = {
     [PRIMITIVE_SPHERE] = &sphere,
     [PRIMITIVE_PLANE] = &plane,
@@ -394,9 +431,11 @@ static const PrimitiveClass *const classes[] = {
     [PRIMITIVE_LATHE] = &primitive_class_lathe,
     [PRIMITIVE_SOR] = &primitive_class_sor,
     [PRIMITIVE_SUPERELLIPSOID] = &primitive_class_superellipsoid,
+    [PRIMITIVE_OVUS] = &egg,
     [PRIMITIVE_SWEEP] = &primitive_class_sweep,
     [PRIMITIVE_JULIA] = &primitive_class_julia,
     [PRIMITIVE_ISOSURFACE] = &primitive_class_isosurface,
+    [PRIMITIVE_PARAMETRIC] = &primitive_class_parametric,
     [PRIMITIVE_MESH] = &primitive_class_mesh,
     [PRIMITIVE_MESH_SOLID] = &primitive_class_mesh_solid,
 };

@@ -55,6 +55,12 @@ static inline bool primitive_kind_is_flat(PrimitiveKind kind)
     return primitive_class(kind)->interval_count == 0;
 }
 
+// Whether it has no inside.
+static inline bool primitive_kind_is_sheet(PrimitiveKind kind)
+{
+    return primitive_kind_is_flat(kind) || !primitive_class(kind)->holds;
+}
+
 // How many intervals a line has in the primitive, at most; 0: it is flat.
 static inline uint32_t primitive_interval_most(const Primitive *primitive)
 {

@@ -460,6 +460,19 @@ const PrimitiveClass primitive_class_isosurface = {
     .measure = primitive_box_measure,
 };
 
+const PrimitiveClass primitive_class_parametric = {
+    .word = "parametric surface",
+    .head = "parametric {",
+    .family = FAMILY_ISOSURFACE,
+    .surface = PRIMITIVE_PARAMETRIC,
+    .key_count = 3,
+    .interval_count = 2,
+    .has_list = true,
+    .is_sized = true,
+    .support = primitive_box_support,
+    .measure = primitive_box_measure,
+};
+
 const PrimitiveClass primitive_class_mesh = {
     .word = "mesh",
     .head = "",

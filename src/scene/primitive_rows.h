@@ -21,6 +21,7 @@ extern const PrimitiveClass primitive_class_superellipsoid;
 extern const PrimitiveClass primitive_class_sweep;
 extern const PrimitiveClass primitive_class_julia;
 extern const PrimitiveClass primitive_class_isosurface;
+extern const PrimitiveClass primitive_class_parametric;
 extern const PrimitiveClass primitive_class_mesh;
 extern const PrimitiveClass primitive_class_mesh_solid;
 

@@ -294,6 +294,14 @@ static const SchemaProperty torus_properties[] = {
     {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
 };
 
+static const SchemaProperty ovus_arguments[] = {
+    {"bottom radius", TYPE_NUMBER, AT(OvusDesc, bottom), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "of a ball about the origin"},
+    {"top radius", TYPE_NUMBER, AT(OvusDesc, top), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "of a ball about a point of that one's surface, on the y axis"},
+};
+
+static const OvusDesc ovus_defaults = {.part = OBJECT_PART, .bottom = 1.0};
 static const TorusDesc torus_defaults = {.part = OBJECT_PART, .major = 1.0};
 
 // ---- polynomials
@@ -335,6 +343,22 @@ static const SchemaProperty isosurface_properties[] = {
     {"all_intersections", TYPE_ACTION, ACTION_EVALUATE, .doc = "the same as `max_trace 10`"},
     {"open", TYPE_FLAG, AT(IsosurfaceDesc, is_open), .doc = "nothing is seen where the container cuts the inside"},
 };
+
+static const SchemaProperty parametric_properties[] = {
+    {"contained_by", TYPE_BLOCK, ACTION_CONTAINED_BY, .is_leading = true,
+     .doc = "`{ sphere { … } }` or `{ box { … } }`"},
+    {"accuracy", TYPE_NUMBER, AT(ParametricDesc, accuracy), .range = POSITIVE, .is_leading = true,
+     .doc = "the rectangle of u and v is halved until its pieces are shorter"},
+    {"max_gradient", TYPE_NUMBER, AT(ParametricDesc, max_gradient), .range = POSITIVE, .is_leading = true,
+     .doc = "how much a function changes with u or v over 1 at most"},
+    {"precompute", TYPE_ACTION, ACTION_PRECOMPUTE, .is_leading = true,
+     .doc = "a number from 1 to 20, then x, y and z or some of them: changes nothing"},
+};
+
+static const ParametricDesc parametric_defaults = {.part = OBJECT_PART,
+                                                   .container = {.low = {-1.0, -1.0, -1.0}, .high = {1.0, 1.0, 1.0}},
+                                                   .accuracy = 0.001,
+                                                   .max_gradient = 1.0};
 
 static const SchemaProperty contained_by_properties[] = {
     {"sphere", TYPE_BLOCK, ACTION_CONTAINER, .doc = "`{ centre, radius }`"},
@@ -934,6 +958,15 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                     .arguments = LIST(torus_arguments),
                     .groups = {LIST(torus_properties), OBJECT_GROUPS},
                     .doc = "A ring with a round tube, about y."},
+    [KIND_OVUS] = {.word = "ovus",
+                   .what = "an ovus",
+                   .size = sizeof(OvusDesc),
+                   .defaults = &ovus_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .arguments = LIST(ovus_arguments),
+                   .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                   .doc = "An egg: two balls and the arc about y that touches both; a top of twice the bottom radius is a ball."},
     [KIND_QUADRIC] = {.word = "quadric",
                       .what = "a quadric",
                       .size = sizeof(PolynomialDesc),
@@ -1001,25 +1034,32 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                          .is_object = true,
                          .is_declarable = true,
                          .groups = {LIST(isosurface_properties), OBJECT_GROUPS},
-                         .doc =
-                             "Where a function is at a threshold, within a sphere or box; inside where it is below."},
+                         .doc = "Where a function is at a threshold, within a sphere or box; inside where it is below."},
+    [KIND_PARAMETRIC] = {.word = "parametric",
+                         .what = "a parametric surface",
+                         .size = sizeof(ParametricDesc),
+                         .defaults = &parametric_defaults,
+                         .is_object = true,
+                         .is_declarable = true,
+                         .groups = {LIST(parametric_properties), OBJECT_GROUPS},
+                         .doc = "Points that three functions of u and v give for x, y and z, over a rectangle; without an inside."},
     [KIND_CONTAINED_BY] = {.word = "contained_by",
                            .size = sizeof(ContainerDesc),
                            .defaults = &container_defaults,
                            .groups = {LIST(contained_by_properties)},
-                           .doc = "What an isosurface lies in."},
+                           .doc = "What an isosurface or a parametric surface lies in."},
     [KIND_CONTAINER_BALL] = {.word = "sphere",
                              .inside = "contained_by",
                              .size = sizeof(ContainerDesc),
                              .defaults = &container_defaults,
                              .arguments = LIST(container_ball_arguments),
-                             .doc = "A ball that contains an isosurface."},
+                             .doc = "A ball that contains an isosurface or a parametric surface."},
     [KIND_CONTAINER_BOX] = {.word = "box",
                             .inside = "contained_by",
                             .size = sizeof(ContainerDesc),
                             .defaults = &container_defaults,
                             .arguments = LIST(container_box_arguments),
-                            .doc = "A box that contains an isosurface."},
+                            .doc = "A box that contains an isosurface or a parametric surface."},
     [KIND_PRISM] = {.word = "prism",
                     .what = "a prism",
                     .size = sizeof(PrismDesc),
@@ -1391,8 +1431,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 
 static const SchemaUnsupported unsupported[] = {
     {"media", true, NULL, "smoke, dust and fire, and their light"},
-    {"ovus", true, "use a sphere with `scale`", NULL},
-    {"parametric", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},

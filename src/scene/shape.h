@@ -57,8 +57,11 @@ typedef struct Plane {
 //   polygon         an outline of straight pieces in x and y, at z = 0
 //   isosurface      where the function of the list is at its threshold (scene/isosurface.h), within the box from fixed[0]
 //                   to fixed[1]
+//   parametric      the points of a rectangle that the functions of the list give (scene/parametric.h), within the box
+//                   from fixed[0] to fixed[1]
 //   sweep           what the balls of the list cover (scene/sweep.h), within the box from fixed[0] to fixed[1]; no number
 //                   of theirs is greater than 1, and one is at least 1/2
+//   ovus            an egg (scene/ovus.h), from -1 to 1 in the coordinates that it is greatest in
 //   julia           a Julia fractal (scene/julia.h), within the box from fixed[0] to fixed[1]
 //   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
 typedef enum PrimitiveKind {
@@ -77,9 +80,11 @@ typedef enum PrimitiveKind {
     PRIMITIVE_LATHE,
     PRIMITIVE_SOR,
     PRIMITIVE_SUPERELLIPSOID,
+    PRIMITIVE_OVUS,
     PRIMITIVE_SWEEP,
     PRIMITIVE_JULIA,
     PRIMITIVE_ISOSURFACE,
+    PRIMITIVE_PARAMETRIC,
     PRIMITIVE_MESH,
     PRIMITIVE_MESH_SOLID,
     PRIMITIVE_KINDS
@@ -124,7 +129,7 @@ typedef struct Primitive {
         struct { // of a kind that has a list of numbers (scene/primitive.h): its bounds or more of them, and the list
             Vec3 fixed[2];
             Numbers list;            // the scene's, once the primitive is added: equal lists are at one place
-            const FormulaHost *host; // of an isosurface that asks for noise or patterns; else NULL
+            const FormulaHost *host; // of a shape whose functions ask for noise or patterns; else NULL
         };
         PrimitiveMesh mesh; // of a mesh
     };

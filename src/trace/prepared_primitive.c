@@ -13,6 +13,8 @@
 #include "trace/flat.h"
 #include "trace/isosurface.h"
 #include "trace/julia.h"
+#include "trace/ovus.h"
+#include "trace/parametric.h"
 #include "trace/plane.h"
 #include "trace/polynomial.h"
 #include "trace/prism.h"
@@ -509,6 +511,11 @@ const PreparedClass prepared_classes[PRIMITIVE_KINDS] = {
                                   .gradient = superellipsoid_side_gradient,
                                   .point = superellipsoid_side_point,
                                   .axes = cube_axes},
+    [PRIMITIVE_OVUS] = {.intervals = ovus_intervals,
+                        .normal = ovus_gradient,
+                        .gradient = ovus_gradient,
+                        .point = ovus_point,
+                        .axes = cube_axes},
     [PRIMITIVE_SWEEP] = {.intervals = sweep_side_intervals,
                          .normal = sweep_side_gradient,
                          .gradient = sweep_side_gradient,
@@ -527,6 +534,11 @@ const PreparedClass prepared_classes[PRIMITIVE_KINDS] = {
                               .axes = box_axes,
                               .turns = true,
                               .unseen = 1 << ISOSURFACE_UNSEEN},
+    [PRIMITIVE_PARAMETRIC] = {.intervals = parametric_intervals,
+                              .met = parametric_met,
+                              .point = same_point,
+                              .axes = box_axes,
+                              .films = 1 << PARAMETRIC_SIDE},
     [PRIMITIVE_MESH] = {.axes = box_axes}, // all else is in trace/mesh.h
     [PRIMITIVE_MESH_SOLID] = {.axes = box_axes},
 };

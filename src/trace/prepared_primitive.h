@@ -23,6 +23,7 @@ typedef enum PrimitiveTrait {
     TRAIT_SIZED = 4,  // as in PrimitiveClass
     TRAIT_MESH = 8,   // it is asked by trace/mesh.h
     TRAIT_TURNS = 16, // as in PreparedClass
+    TRAIT_SHEET = 32, // it has no inside, flat or not: which side is met its normal tells
 } PrimitiveTrait;
 
 typedef struct MeshTable MeshTable;
@@ -33,7 +34,7 @@ typedef struct IsosurfaceWorld {
     const Abandon *abandon; // NULL: no ray is left untraced; not owned
 } IsosurfaceWorld;
 
-// What an isosurface, or a Julia fractal, has in the place of fixed[] and a list.
+// What an isosurface, a parametric surface or a Julia fractal has in the place of fixed[] and a list.
 typedef struct PreparedIsosurface {
     Vec3 low, high;
     const double *list;
@@ -114,6 +115,9 @@ typedef struct PreparedClass {
     // A vector along the surface's normal, of any length.
     Vec3 (*gradient)(const PreparedPrimitive *primitive, Vec3 point, uint8_t side);
     Vec3 (*point)(const PreparedPrimitive *primitive, Vec3 point, uint8_t side); // one near the side, put onto it
+    // Of a kind without an inside that is not flat, in the place of normal and gradient: a vector along the normal where
+    // the line meets it at t. What is met is as near as it is said to be.
+    Vec3 (*met)(const PreparedPrimitive *primitive, const Ray *object, double t);
     // The axes of an ellipsoid around it, about *middle.
     void (*axes)(const PreparedPrimitive *primitive, Vec3 axes[3], Vec3 *middle);
     bool turns;                // its normals may point in as well as out: which way a ray crosses it tells

@@ -107,6 +107,9 @@ double primitive_crossing_error(const PreparedPrimitive *primitive, const Ray *r
         PlaneShape plane = {primitive->data[0], primitive->data[1].x};
         return plane_crossing_error(&plane, ray->origin, ray->direction, t);
     }
+    if (prepared_classes[primitive->kind].met) {
+        return 0.0;
+    }
     return plane_error(primitive, ray, object, t,
                        prepared_classes[primitive->kind].gradient(primitive, ray_at(*object, t), side));
 }
@@ -126,6 +129,9 @@ double primitive_crossing_bound(const PreparedPrimitive *primitive, const Ray *r
         return rounding * (span + fabs(primitive->data[1].x)) / fabs(vec3_dot(primitive->data[0], ray->direction));
     }
     const double *columns = &primitive->columns.x, *d = &object->direction.x, reach = span + primitive->spread;
+    if (prepared_classes[primitive->kind].met) {
+        return 0.0;
+    }
     int across =
         prepared_classes[primitive->kind].across[side]; // NOLINT(bugprone-signed-char-misuse): less than 0 is meant
     if (across > 0) {
@@ -165,8 +171,9 @@ void primitive_surface(const PreparedPrimitive *primitive, const Ray *ray, doubl
     Ray object = primitive_ray(primitive, ray);
     Vec3 own = prepared_classes[primitive->kind].point(primitive, ray_at(object, t), side);
     *point = vec3_add(primitive->centre, linear_direction(&primitive->to_world, own));
-    *normal = vec3_normalize(
-        linear_normal(&primitive->to_object, prepared_classes[primitive->kind].normal(primitive, own, side)));
+    const PreparedClass *class = &prepared_classes[primitive->kind];
+    Vec3 across = class->met ? class->met(primitive, &object, t) : class->normal(primitive, own, side);
+    *normal = vec3_normalize(linear_normal(&primitive->to_object, across));
 }
 
 bool primitive_equal(const PreparedPrimitive *a, const PreparedPrimitive *b)

@@ -11,7 +11,7 @@ void primitive_offer(const ShapeTable *table, const Ray *ray, const PrimitiveRoo
         return;
     }
     bool inside = root->leaves != primitive->flips;
-    if (primitive_is_flat(primitive)) {
+    if (primitive->traits & TRAIT_SHEET) {
         Vec3 point, normal;
         primitive_surface(primitive, ray, t, root->side, &point, &normal);
         inside = vec3_dot(normal, ray->direction) > 0.0;

@@ -51,6 +51,7 @@ static PreparedPrimitive primitive_of(const Primitive *primitive, int exponent, 
     prepared.films = prepared_classes[prepared.kind].films;
     prepared.unseen = (uint8_t)(prepared_classes[prepared.kind].unseen | (primitive->flags & PRIMITIVE_OPEN ? ~1 : 0));
     prepared.traits |= prepared_classes[prepared.kind].turns ? TRAIT_TURNS : 0;
+    prepared.traits |= prepared_classes[prepared.kind].met || primitive_is_flat(&prepared) ? TRAIT_SHEET : 0;
     if (primitive->kind == PRIMITIVE_PLANE) {
         prepared.data[1].x = ldexp(primitive->data[1].x, -exponent);
         return prepared;
@@ -172,7 +173,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
             primitive->mesh.cursor = csg->mesh_count++;
         }
         primitive->is_needed =
-            !(primitive->flags & PRIMITIVE_INVERSE) && !primitive_is_flat(primitive) && !primitive_is_mesh(primitive);
+            !(primitive->flags & PRIMITIVE_INVERSE) && !(primitive->traits & TRAIT_SHEET) && !primitive_is_mesh(primitive);
         for (uint32_t at = primitive->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
             primitive->flips = primitive->flips != node->is_inverse;
@@ -513,6 +514,11 @@ static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
     return true;
 }
 
+static bool asks_world(uint8_t kind)
+{
+    return kind == PRIMITIVE_ISOSURFACE || kind == PRIMITIVE_PARAMETRIC || kind == PRIMITIVE_JULIA;
+}
+
 bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads, const atomic_bool *cancel)
 {
     *table = (ShapeTable){
@@ -530,7 +536,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         double down = ldexp(1.0, -exponent), up = ldexp(1.0, exponent);
         for (uint32_t i = 0; i < table->primitive_count; i++) {
             table->primitives[i] = primitive_of(&scene->primitives.items[i], exponent, down, up);
-            if (table->primitives[i].kind == PRIMITIVE_ISOSURFACE || table->primitives[i].kind == PRIMITIVE_JULIA) {
+            if (asks_world(table->primitives[i].kind)) {
                 table->primitives[i].isosurface.world = &table->isosurfaces;
             }
             work.solids[i] = part_bounds(&scene->primitives.items[i], exponent, down);

@@ -7,6 +7,7 @@
 
 #include "trace/geometry.h"
 #include "trace/mesh.h"
+#include "trace/parametric.h"
 #include "trace/revolved.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -51,12 +52,22 @@ static Vec3 of_box(const PreparedPrimitive *box, Vec3 p, uint8_t side)
     }
 }
 
-static Vec3 of_part(const PreparedPrimitive *primitive, Vec3 point, uint8_t side, Vec3 place)
+static Vec3 of_parametric(const PreparedPrimitive *primitive, Vec3 point, Vec3 direction)
+{
+    double pair[2];
+    parametric_uv(primitive, point, direction, pair);
+    return uv(pair[0], pair[1]);
+}
+
+static Vec3 of_part(const PreparedPrimitive *primitive, Vec3 point, Vec3 direction, uint8_t side, Vec3 place)
 {
     Vec3 own = linear_direction(&primitive->to_object, vec3_sub(point, primitive->centre));
     switch ((PrimitiveKind)primitive->kind) {
     case PRIMITIVE_SPHERE:
+    case PRIMITIVE_OVUS:
         return of_sphere(own);
+    case PRIMITIVE_PARAMETRIC:
+        return of_parametric(primitive, point, direction);
     case PRIMITIVE_BOX:
         return of_box(primitive, own, side);
     case PRIMITIVE_TORUS:
@@ -98,14 +109,14 @@ static Vec3 of_face(const PreparedPrimitive *primitive, uint32_t face, Vec3 poin
     return uv(sum[0], sum[1]);
 }
 
-Vec3 geometry_uv(const Geometry *geometry, const Scene *scene, ShapeId shape, Vec3 point, Vec3 place)
+Vec3 geometry_uv(const Geometry *geometry, const Scene *scene, ShapeId shape, Vec3 point, Vec3 direction, Vec3 place)
 {
     const ShapeTable *table = &geometry->shapes;
     Vec3 text = vec3_scale(1.0 / scene->text_unit, vec3_sub(place, scene->text_origin));
     text.z = 0.0;
     switch (shape_kind(shape)) {
     case SHAPE_PRIMITIVE:
-        return of_part(&table->primitives[primitive_index(shape)], point, primitive_side(shape), text);
+        return of_part(&table->primitives[primitive_index(shape)], point, direction, primitive_side(shape), text);
     case SHAPE_FACE: {
         const PreparedPrimitive *primitive = &table->primitives[table_face_primitive(table, shape)];
         return primitive->mesh.table->mesh->field

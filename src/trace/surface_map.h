@@ -1,6 +1,6 @@
 // Surface coordinates: where on its shape a point is, as `uv_mapping` asks for it.
 //
-// Spheres, boxes, tori, lathes, surfaces of revolution and faces of meshes have coordinates of their own, which move
+// Spheres, eggs, boxes, tori, lathes, surfaces of revolution, parametric surfaces and faces of meshes have coordinates of their own, which move
 // and stretch with the shape; all others are laid out by x and y of the scene's text. All measured of POV-Ray;
 // docs/language.md has the formulas. Knows nothing of textures.
 //
@@ -10,7 +10,7 @@
 
 #include "trace/trace.h"
 
-// <u, v, 0> of a point that a ray met on a shape; `place` is the point in the scene's lengths.
-Vec3 geometry_uv(const Geometry *geometry, const Scene *scene, ShapeId shape, Vec3 point, Vec3 place);
+// <u, v, 0> of a point that a ray of a direction met on a shape; `place` is the point in the scene's lengths.
+Vec3 geometry_uv(const Geometry *geometry, const Scene *scene, ShapeId shape, Vec3 point, Vec3 direction, Vec3 place);
 
 #endif

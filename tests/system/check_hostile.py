@@ -159,6 +159,11 @@ SCENES = {
     "Julia fractals of the greatest and the least numbers": HEAD + "".join(
         "julia_fractal { <%s, 0, %s, 0> %s max_iteration 3 slice <%s, 0, 0, 1e-300>, %s pigment { rgb 1 } }\n" % (a, b, words, b, a)
         for words in ("sqr", "cube") for a in ("0.1", "1e300", "1e-320") for b in ("0", "1e300", "-0.4")),
+    "parametric surfaces of the greatest and the least numbers": HEAD + "".join(
+        "parametric { function { %s*u } function { v/%s } function { %s } <0, 0>, <%s, %s> accuracy %s max_gradient %s pigment { rgb 1 } }\n"
+        % (a, a, c, b, b, b, a) for a in ("1", "1e300", "1e-300") for b in ("1", "1e300", "1e-320") for c in ("u*v", "1/(0*u)", "ln(-u)")),
+    "eggs of the greatest and the least numbers": HEAD + "".join(
+        "ovus { %s, %s pigment { rgb 1 } }\n" % (a, b) for a in ("1", "1e300", "1e-320", "0") for b in ("0", "0.5", "1.7e308", "1e-9")),
     "a sphere sweep of ten thousand balls in one place": HEAD + "sphere_sweep { b_spline 10000" + ", 0, 1" * 10000 + " }\n",
     "superellipsoids of the greatest and the least numbers": HEAD + "".join(
         "superellipsoid { <%s, %s> pigment { rgb 1 } }\n" % (about, along)

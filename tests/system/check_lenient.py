@@ -23,11 +23,11 @@ light_source { <5, 5, -5> rgb 1 [[photons { reflection on }]] }
 [[media { emission 0.1 }]]
 #declare Metal = finish { [[subsurface { translucency 0.3 }]] phong 0.5 reflection 0.2 };
 #declare Skin = texture { pigment { rgb <0.8, 0.3, 0.2> } finish { Metal } };
-union { [[ovus { 2, 0.1 }]] sphere { <-1, 0, 0>, 1 } sphere { <1, 0, 0>, 1 } texture { Skin } }
+union { [[polynomial { 2, 0.1 }]] sphere { <-1, 0, 0>, 1 } sphere { <1, 0, 0>, 1 } texture { Skin } }
 sphere { <0, 1, -1>, 0.4 pigment { rgbt 0.8 } interior { ior 1.4 [[media { absorption 1 }]] [[dispersion 1.1]] } }
-#declare Unused = parametric { };
+#declare Unused = texture { pigment { facets } };
 """
-WARNING = ("drawn without radiosity in global_settings, photons in global_settings, media, ovus, subsurface in finish, "
+WARNING = ("drawn without radiosity in global_settings, photons in global_settings, media, polynomial, subsurface in finish, "
            "dispersion in interior")
 
 
@@ -68,7 +68,7 @@ def main():
                   "which says what would be lacking", told)
         status, told = run(folder, "--lenient", "whole.scn")
         report.equal((status, told.count("warning[W0409]")), (0, 6), "with --lenient it is drawn, and each word told once")
-        report.ok("parametric" not in told, "what is not used is not told", told)
+        report.ok("facets" not in told, "what is not used is not told", told)
         status, _ = run(folder, "cut.scn")
         report.equal(pixels(at("whole.png")), pixels(at("cut.png")), "the pixels are those of the scene cut by hand")
         report.equal(notes(at("whole.png")).get("Warning"), WARNING, "the file says what it was drawn without")

@@ -446,13 +446,36 @@ bool blob_blend(Eval *ev, const BlobDesc *blob, const TextureDesc *own, const Tr
 const char *blob_form(const void *object, Primitive *primitive);
 bool blob_holds(const void *object, Vec3 point, bool is_turned);
 
+// shape_formula.c: functions of shapes; `head` is where in the list the steps begin. They are given what they ask, and
+// made those of the scene that the primitive is put into.
+bool shape_formula_host(Block *block, ShapeFormula *formula, size_t head, const PaintedList *painted) RT_MUST_CHECK;
+bool shape_formula_place(Eval *ev, const ShapeFormula *formula, size_t head, Span span,
+                         Primitive *primitive) RT_MUST_CHECK;
+
+// Does that for a shape of any kind that has functions.
+bool shape_place_functions(Eval *ev, const void *object, Primitive *primitive) RT_MUST_CHECK;
+
+// ovus.c: these as in ShapeClass
+const char *ovus_form(const void *object, Primitive *primitive);
+bool ovus_has(const void *object, Vec3 point, bool is_turned);
+bool ovus_box(const void *object, OwnBox *own);
+
+// parametric.c
+bool parametric_body(Block *block) RT_MUST_CHECK;
+bool parametric_precompute_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool parametric_close(Block *block) RT_MUST_CHECK; // this and these as in ShapeClass
+bool parametric_place(Eval *ev, const void *object, Primitive *primitive) RT_MUST_CHECK;
+const char *parametric_form(const void *object, Primitive *primitive);
+bool parametric_box(const void *object, OwnBox *own);
+
 // isosurface.c
 bool shape_function_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool contained_by_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool container_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool isosurface_evaluate_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool isosurface_close(Block *block) RT_MUST_CHECK;
-// The primitive's function as one of the scene that it is put into.
+// The shape that a container is made of, in its own space.
+void container_set(const ContainerDesc *container, double low[3], double high[3]);
 bool isosurface_place(Eval *ev, const void *object, Primitive *primitive) RT_MUST_CHECK;
 const char *isosurface_form(const void *object, Primitive *primitive); // these as in ShapeClass
 bool isosurface_has(const void *object, Vec3 point, bool is_turned);

@@ -10,7 +10,6 @@
 #include "eval/build/blocks.h"
 #include "eval/build/painted.h"
 #include "eval/values/function.h"
-#include "math/given_surface.h"
 #include "scene/isosurface.h"
 
 // Lines that are looked along, and what a function's steps are at least divided by to have fewer.
@@ -63,7 +62,8 @@ bool contained_by_action(Block *block, const SchemaProperty *property, const Ast
         return block_fault(block, DIAG_E0253, item->span, "`contained_by` needs a sphere or box in its braces");
     }
     (void)property;
-    block->record->isosurface.container = inner.container;
+    *(block->kind == KIND_PARAMETRIC ? &block->record->parametric.container : &block->record->isosurface.container) =
+        inner.container;
     return true;
 }
 
@@ -100,13 +100,13 @@ static double gradient_of(const IsosurfaceDesc *desc)
     return evaluate[0] > 0.0 ? evaluate[0] * evaluate[1] * evaluate[1] : desc->max_gradient;
 }
 
-static void set_container(const ContainerDesc *container, Isosurface *head)
+void container_set(const ContainerDesc *container, double to_low[3], double to_high[3])
 {
     Vec3 radius = {container->radius, container->radius, container->radius};
     Vec3 low = container->is_ball ? container->low : vec3_least(container->low, container->high);
     Vec3 high = container->is_ball ? radius : vec3_greatest(container->low, container->high);
-    memcpy(head->low, &low, sizeof head->low);
-    memcpy(head->high, &high, sizeof head->high);
+    memcpy(to_low, &low, sizeof low);
+    memcpy(to_high, &high, sizeof high);
 }
 
 static bool make_list(Block *block, const Scene *scene, uint32_t first, Numbers *list)
@@ -120,13 +120,6 @@ static bool make_list(Block *block, const Scene *scene, uint32_t first, Numbers 
     int roots = desc->roots_most < ISOSURFACE_ROOTS_MOST ? desc->roots_most : ISOSURFACE_ROOTS_MOST;
     unsigned flags =
         (desc->is_open ? (unsigned)ISOSURFACE_OPEN : 0) | (desc->container.is_ball ? (unsigned)ISOSURFACE_ROUND : 0);
-    for (size_t i = 0; i < steps; i++) {
-        uint32_t op = scene->formula_steps.items[i].op;
-        bool is_noisy = op == FORMULA_GIVEN && given_surface_asks_noise(scene->formula_steps.items[i].which);
-        flags |= op == FORMULA_NOISE || op == FORMULA_NOISE_CHOSEN || is_noisy ? (unsigned)ISOSURFACE_NOISY
-                 : op == FORMULA_PATTERN || op == FORMULA_PIGMENT              ? (unsigned)ISOSURFACE_PAINTED
-                                                                               : 0;
-    }
     Isosurface head = {.first = first,
                        .step_count = (double)steps,
                        .threshold = desc->threshold,
@@ -135,7 +128,7 @@ static bool make_list(Block *block, const Scene *scene, uint32_t first, Numbers 
                        .flags = flags,
                        .roots_most = roots,
                        .generator = eval_noise_generator(block->ev)};
-    set_container(&desc->container, &head);
+    container_set(&desc->container, head.low, head.high);
     memcpy(numbers, &head, sizeof head);
     memcpy(numbers + ISOSURFACE_HEAD, scene->formula_steps.items, steps * sizeof(FormulaStep));
     *list = (Numbers){numbers, ISOSURFACE_HEAD + ISOSURFACE_STEP * steps};
@@ -185,7 +178,7 @@ static Ray line_through_ball(Vec3 middle, double radius, unsigned i, double *len
 
 static double steepest(const IsosurfaceDesc *desc)
 {
-    const Isosurface *surface = isosurface_of(desc->list.items);
+    const Isosurface *surface = isosurface_of(desc->formula.list.items);
     unsigned lines = (unsigned)fmin(LINES_MOST, 1.0 + LINES_MOST * (STEPS_OF_LINES / fmax(surface->step_count, 1.0)));
     double most = 0.0, length, t;
     Vec3 low, high;
@@ -194,7 +187,7 @@ static double steepest(const IsosurfaceDesc *desc)
         Ray ray = isosurface_is(surface, ISOSURFACE_ROUND)
                       ? line_through_ball(vec3_scale(0.5, vec3_add(low, high)), surface->high[0], i, &length)
                       : line_through(low, high, i, &length);
-        IsosurfaceLine line = isosurface_line(desc->list.items, desc->host, ray, 1.0);
+        IsosurfaceLine line = isosurface_line(desc->formula.list.items, desc->formula.host, ray, 1.0);
         line.step = fmax(line.step, length / 1024.0);
         bool up = isosurface_along(&line, 0.0) < 0.0;
         (void)isosurface_find(&line, 0.0, length, up, &t);
@@ -206,7 +199,7 @@ static double steepest(const IsosurfaceDesc *desc)
 static bool check_gradient(Block *block)
 {
     const IsosurfaceDesc *desc = &block->record->isosurface;
-    double found = steepest(desc), said = isosurface_of(desc->list.items)->max_gradient;
+    double found = steepest(desc), said = isosurface_of(desc->formula.list.items)->max_gradient;
     if (found > 1.001 * said) { // less shows nowhere
         eval_warn(
             block->ev, DIAG_W0485, block->node->span,
@@ -220,7 +213,7 @@ static bool check_pieces(Block *block)
 {
     const IsosurfaceDesc *desc = &block->record->isosurface;
     Vec3 low, high;
-    isosurface_bounds(isosurface_of(desc->list.items), &low, &high);
+    isosurface_bounds(isosurface_of(desc->formula.list.items), &low, &high);
     double across = vec3_length(vec3_sub(high, low));
     if (!isfinite(across)) {
         return block_fault(block, DIAG_E0341, block->node->span, "what contains an isosurface must be finite");
@@ -231,73 +224,6 @@ static bool check_pieces(Block *block)
                        desc->accuracy, across);
 }
 
-// ---- patterns and noise
-
-// What the evaluator asks patterns with.
-typedef struct Asker {
-    FormulaHost host;
-    Eval *ev;
-    Painted *const *painted;
-    Span span;
-} Asker;
-
-static double ask(const void *client, const FormulaStep *step, const double *point)
-{
-    const Asker *asker = client;
-    double v[5];
-    if (!painted_at(asker->ev, asker->painted[step->which], point, asker->span, v)) {
-        return (double)NAN;
-    }
-    return step->op == FORMULA_PATTERN ? v[0] : formula_component(step, v);
-}
-
-static bool set_host(Block *block, const PaintedList *painted)
-{
-    IsosurfaceDesc *desc = &block->record->isosurface;
-    Span span = block->node->span;
-    unsigned flags = (unsigned)isosurface_of(desc->list.items)->flags;
-    if (!(flags & (ISOSURFACE_NOISY | ISOSURFACE_PAINTED))) {
-        return true;
-    }
-    Asker *asker = arena_alloc(block->arena, sizeof *asker);
-    const Noise *noise = eval_noise(block->ev, span);
-    Painted **copy = arena_copy(block->arena, painted->items, painted->count * sizeof *copy);
-    if (!asker || !noise || (!copy && painted->count > 0)) {
-        return eval_no_memory(block->ev, span);
-    }
-    *asker = (Asker){{noise, painted->count > 0 ? ask : NULL, asker}, block->ev, copy, span};
-    desc->host = &asker->host;
-    desc->painted = copy;
-    return true;
-}
-
-bool isosurface_place(Eval *ev, const void *object, Primitive *primitive)
-{
-    const IsosurfaceDesc *desc = object;
-    Span span = desc->part.span;
-    world_note(ev);
-    if (!desc->host) {
-        return true;
-    }
-    primitive->host = scene_formula_host(ev->scene);
-    double *list = arena_copy(&ev->program, primitive->list.items, primitive->list.count * sizeof *list);
-    if (!primitive->host || !list) {
-        return eval_no_memory(ev, span);
-    }
-    FormulaStep *steps = (FormulaStep *)(void *)(list + ISOSURFACE_HEAD);
-    for (size_t i = 0; i < (size_t)isosurface_of(list)->step_count; i++) {
-        Pigment pigment;
-        if (steps[i].op == FORMULA_PATTERN || steps[i].op == FORMULA_PIGMENT) {
-            if (!painted_place(ev, ev->scene, desc->painted[steps[i].which], span, &pigment)) {
-                return false;
-            }
-            steps[i].which = pigment.pattern;
-        }
-    }
-    primitive->list.items = list;
-    return true;
-}
-
 static bool make(Block *block, PaintedList *painted)
 {
     IsosurfaceDesc *desc = &block->record->isosurface;
@@ -305,7 +231,8 @@ static bool make(Block *block, PaintedList *painted)
     uint32_t first;
     scene_init(&scene);
     bool is_made = formula_make(block->ev, &scene, desc->function, block->kind, block->node->span, &first, painted) &&
-                   make_list(block, &scene, first, &desc->list) && set_host(block, painted);
+                   make_list(block, &scene, first, &desc->formula.list) &&
+                   shape_formula_host(block, &desc->formula, ISOSURFACE_HEAD, painted);
     scene_fini(&scene);
     return is_made;
 }
@@ -330,13 +257,19 @@ bool isosurface_close(Block *block)
 
 // ---- the shape
 
+bool isosurface_place(Eval *ev, const void *object, Primitive *primitive)
+{
+    const IsosurfaceDesc *desc = object;
+    return shape_formula_place(ev, &desc->formula, ISOSURFACE_HEAD, desc->part.span, primitive);
+}
+
 const char *isosurface_form(const void *object, Primitive *primitive)
 {
     const IsosurfaceDesc *desc = object;
     primitive->kind = PRIMITIVE_ISOSURFACE;
-    isosurface_bounds(isosurface_of(desc->list.items), &primitive->fixed[0], &primitive->fixed[1]);
-    primitive->list = desc->list;
-    primitive->host = desc->host;
+    isosurface_bounds(isosurface_of(desc->formula.list.items), &primitive->fixed[0], &primitive->fixed[1]);
+    primitive->list = desc->formula.list;
+    primitive->host = desc->formula.host;
     bool is_flat = primitive->fixed[0].x == primitive->fixed[1].x || primitive->fixed[0].y == primitive->fixed[1].y ||
                    primitive->fixed[0].z == primitive->fixed[1].z;
     return is_flat ? "an isosurface in a flat box is not drawn" : NULL;
@@ -345,11 +278,11 @@ const char *isosurface_form(const void *object, Primitive *primitive)
 bool isosurface_has(const void *object, Vec3 point, bool is_turned)
 {
     const IsosurfaceDesc *desc = object;
-    return isosurface_holds(desc->list.items, desc->host, point) != is_turned;
+    return isosurface_holds(desc->formula.list.items, desc->formula.host, point) != is_turned;
 }
 
 bool isosurface_box(const void *object, OwnBox *own)
 {
-    isosurface_bounds(isosurface_of(((const IsosurfaceDesc *)object)->list.items), &own->low, &own->high);
+    isosurface_bounds(isosurface_of(((const IsosurfaceDesc *)object)->formula.list.items), &own->low, &own->high);
     return false;
 }

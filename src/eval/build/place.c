@@ -216,7 +216,7 @@ static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, cons
             !place_face_materials(ev, (const MeshDesc *)common, inner, &alone)) {
             return false;
         }
-        if (primitive->kind == PRIMITIVE_ISOSURFACE && !isosurface_place(ev, common, &alone)) {
+        if (!shape_place_functions(ev, common, &alone)) {
             return false;
         }
         is_added = scene_add_primitive(scene, &alone);

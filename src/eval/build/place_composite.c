@@ -147,7 +147,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     // Flat ones may be clipped, which is their first node then.
     const Node *parent = &ev->scene->nodes.items[branch->parent];
     bool is_clipped_alone = parent->op == NODE_CLIP && parent->child_count == 0 && parent->parent == NODE_NONE;
-    if (primitive_kind_is_flat(primitive.kind) && !is_clipped_alone && !branch->is_inside) {
+    if (primitive_kind_is_sheet(primitive.kind) && !is_clipped_alone && !branch->is_inside) {
         return eval_fault(ev, DIAG_E0362, common->span, "a %s has no inside, so nothing can be cut with it",
                           primitive_class(primitive_class(primitive.kind)->surface)->word);
     }
@@ -155,7 +155,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
         return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
                           COMPOSITE_PRIMITIVES_MOST);
     }
-    if (primitive.kind == PRIMITIVE_ISOSURFACE && !isosurface_place(ev, object, &primitive)) {
+    if (!shape_place_functions(ev, object, &primitive)) {
         return false;
     }
     if (!has_stack(ev->scene, composite, &primitive)) {

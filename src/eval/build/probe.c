@@ -254,11 +254,12 @@ static bool is_sphere_turned(const ProbeNode *leaf)
 static bool meet(const Eval *ev, const Probe *probe, Vec3 origin, Vec3 direction, EvalHit *hit, const ProbeNode **on)
 {
     EvalHit from;
+    const ProbeNode *passed = NULL; // a parametric surface, of which a ray meets one point
     bool is_met = ev->options.tracer->closest(probe->geometry, origin, direction, NULL, hit);
     while (is_met) {
         const ProbeNode *leaf = probe->leaves.items[hit->part];
         bool is_far = vec3_dot(vec3_sub(hit->point, origin), direction) > nearest_hit;
-        if (is_far && is_left(leaf, hit->point)) {
+        if (is_far && leaf != passed && is_left(leaf, hit->point)) {
             if (leaf->kind == KIND_TRIANGLE) {
                 hit->normal = vec3_sub(vec3(0.0, 0.0, 0.0), hit->normal); // POV-Ray has it on the other side
             }
@@ -266,6 +267,7 @@ static bool meet(const Eval *ev, const Probe *probe, Vec3 origin, Vec3 direction
             *on = leaf;
             return true;
         }
+        passed = leaf->kind == KIND_PARAMETRIC ? leaf : passed;
         from = *hit;
         is_met = ev->options.tracer->closest(probe->geometry, from.point, direction, &from, hit);
     }

@@ -402,6 +402,8 @@ static const ShapeClass classes[KIND_COUNT] = {
                          .form = isosurface_form,
                          .holds = isosurface_has,
                          .box = isosurface_box},
+    [KIND_OVUS] = {.form = ovus_form, .holds = ovus_has, .box = ovus_box},
+    [KIND_PARAMETRIC] = {.is_flat = true, .close = parametric_close, .form = parametric_form, .box = parametric_box},
     [KIND_PRISM] = {.form = prism_form, .holds = prism_holds, .box = prism_box},
     [KIND_LATHE] = {.form = lathe_form, .holds = lathe_holds, .box = lathe_box},
     [KIND_SUPERELLIPSOID] = {.form = superellipsoid_form, .holds = superellipsoid_has, .box = superellipsoid_box},

@@ -35,7 +35,7 @@ static Rgb albedo_of(const Prepared *p, const Surface *surface, ShapeId shape, V
     if (surface->material & MATERIAL_COMPOUND) {
         uint32_t texture = p->compounds[surface->material & ~MATERIAL_COMPOUND].texture;
         Vec3 room;
-        const Vec3 *uv = shade_uv(p, texture, shape, surface->point, &room);
+        const Vec3 *uv = shade_uv(p, texture, shape, surface->point, direction, &room);
         TextureSight sight = {surface->point, uv, &normal, &direction, false};
         texture_walk(&p->textures, texture, sight, 0.0, add_albedo, &sum);
     } else {

@@ -116,7 +116,7 @@ static bool facet_at(const Prepared *p, const Film *film, double x, double y, Fa
         LayerSearch search = {p, facet};
         uint32_t texture = p->compounds[material & ~MATERIAL_COMPOUND].texture;
         Vec3 room;
-        const Vec3 *uv = shade_uv(p, texture, facet->hit.shape, facet->surface.point, &room);
+        const Vec3 *uv = shade_uv(p, texture, facet->hit.shape, facet->surface.point, facet->direction, &room);
         TextureSight sight = {facet->surface.point, uv, &facet->normal, &facet->direction, false};
         (void)texture_walk(&p->textures, texture, sight, p->adc_bailout, visit_layer, &search);
     } else if (is_sharp(&p->finishes[p->materials[material].finish])) {

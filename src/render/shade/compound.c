@@ -259,7 +259,7 @@ Rgb shade_caustics(const Prepared *p, const Surface *surface, ShapeId shape, Vec
 {
     Vec3 room;
     const Compound *compound = compound_side(p, surface, direction); // of its interior, so it is there
-    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
+    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, direction, &room);
     Vec3 normal = vec3_dot(surface->normal, direction) > 0.0 ? vec3_neg(surface->normal) : surface->normal;
     CausticSum sum = {normal, direction, 45.0 * p->interiors[compound->interior].caustics};
     TextureSight sight = {surface->point, uv, &normal, &direction, true};
@@ -274,7 +274,7 @@ Rgb shade_layers_through(const Prepared *p, const Surface *surface, ShapeId shap
         MaterialIndex side = shade_side(p, surface->material, surface->normal, direction);
         return texture_pigment_through(material_pigment(&p->materials[side]));
     }
-    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, &room);
+    const Vec3 *uv = shade_uv(p, compound->texture, shape, surface->point, direction, &room);
     bool turns = p->textures.faces && vec3_dot(surface->normal, direction) > 0.0;
     Vec3 normal = turns ? vec3_neg(surface->normal) : surface->normal;
     TextureSight sight = {surface->point, uv, &normal, &direction, true};
