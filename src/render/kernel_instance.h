@@ -25,9 +25,8 @@ RT_ALWAYS_INLINE void trace_view(const Prepared *p, unsigned features, ShadePath
         unsigned i = (unsigned)__builtin_ctzll(left);
         SphereRay ray = sphere_tile_ray(tile, i);
         Hit hit = {found.t[i], found.shape[i], found.inside >> i & 1};
-        SampleStream *stream = call->streams ? &call->streams[i] : NULL;
-        call->light[i] = shade_ray(p, features, path, (Ray){ray.origin, ray.direction}, &hit, stream,
-                                   &call->scratch->rays, call->statistics);
+        const CameraRay own = {{ray.origin, ray.direction}, &hit, call->streams ? &call->streams[i] : NULL};
+        call->light[i] = shade_ray(p, features, path, &own, &call->scratch->rays, call->statistics);
     }
 }
 
@@ -36,12 +35,11 @@ RT_ALWAYS_INLINE void trace_single(const Prepared *p, unsigned features, ShadePa
 {
     for (uint64_t left = call->wanted; left; left &= left - 1) {
         int i = __builtin_ctzll(left);
-        Ray ray;
-        bool is_seen = camera_place_ray(&p->camera, call->places, i, &ray);
+        CameraRay own = {.stream = call->streams ? &call->streams[i] : NULL};
+        bool is_seen = camera_place_ray(&p->camera, call->places, i, &own.ray);
         call->light[i] = rgb_grey(0.0);
         if (is_seen) {
-            SampleStream *stream = call->streams ? &call->streams[i] : NULL;
-            call->light[i] = shade_ray(p, features, path, ray, NULL, stream, &call->scratch->rays, call->statistics);
+            call->light[i] = shade_ray(p, features, path, &own, &call->scratch->rays, call->statistics);
         }
     }
 }

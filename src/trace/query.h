@@ -342,11 +342,21 @@ RT_ALWAYS_INLINE bool query_planes_occluded(const Geometry *g, unsigned features
     return false;
 }
 
+// A ray from a start to something at t_max.
+typedef struct ShadowRay {
+    Ray ray;
+    RayStart start;
+    double t_max;
+} ShadowRay;
+
 // True when anything is met at 0 < t < t_max; `asks_spheres` and `asks_primitives` when that may be one. *blocker, a
 // primitive or a composite, is asked first: nothing but time depends on it.
 RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool asks_spheres, bool asks_primitives,
-                                     Ray ray, RayStart start, double t_max, uint32_t *blocker)
+                                     const ShadowRay *asked, uint32_t *blocker)
 {
+    const Ray ray = asked->ray;
+    const RayStart start = asked->start;
+    const double t_max = asked->t_max;
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
@@ -370,7 +380,7 @@ RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool 
 RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max)
 {
     uint32_t blocker = NO_BLOCKER;
-    return query_occluded(g, features, true, true, ray, start, t_max, &blocker);
+    return query_occluded(g, features, true, true, &(ShadowRay){ray, start, t_max}, &blocker);
 }
 
 // The same of one of several ways that have much in common: what was in the way of one is likely in that of the next.
@@ -378,7 +388,7 @@ RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ra
 RT_ALWAYS_INLINE bool geometry_occluded_again(const Geometry *g, unsigned features, Ray ray, RayStart start,
                                               double t_max, uint32_t *blocker)
 {
-    return query_occluded(g, features, true, true, ray, start, t_max, blocker);
+    return query_occluded(g, features, true, true, &(ShadowRay){ray, start, t_max}, blocker);
 }
 
 // Of surfaces that a plane is before, those whose way does not end on it.
@@ -472,11 +482,11 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
     for (uint64_t open = (left | left_primitives | left_planes) & ~occluded; open; open &= open - 1) {
         int i = __builtin_ctzll(open);
         Vec3 direction = vec3(rays->towards[0][i], rays->towards[1][i], rays->towards[2][i]);
-        Ray ray = {tile_surface_point(from, i), direction};
-        RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), direction) < 0.0, HIDDEN_SHADOW};
-        occluded |= (uint64_t)query_occluded(g, features, left >> i & 1, left_primitives >> i & 1, ray, start,
-                                             rays->distance[i], &blocker)
-                    << i;
+        bool is_inward = vec3_dot(tile_surface_outward(from, i), direction) < 0.0;
+        const ShadowRay ray = {{tile_surface_point(from, i), direction},
+                               {from->shape[i], is_inward, HIDDEN_SHADOW},
+                               rays->distance[i]};
+        occluded |= (uint64_t)query_occluded(g, features, left >> i & 1, left_primitives >> i & 1, &ray, &blocker) << i;
     }
     return occluded;
 }

@@ -358,16 +358,24 @@ RT_ALWAYS_INLINE Rgb shade_stack(const Prepared *p, unsigned features, RayStack 
 // A kernel's shade_stack, not inline, so that it is compiled once.
 typedef Rgb (*ShadePath)(const Prepared *p, RayStack *stack, SampleStream *stream, RenderStatistics *statistics);
 
-// The light that one camera ray brings back, which hits what `known` says, or, where that is NULL, what it meets.
-RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, ShadePath path, Ray ray, const Hit *known,
-                               SampleStream *stream, RayStack *stack, RenderStatistics *statistics)
+// A ray from the camera.
+typedef struct CameraRay {
+    Ray ray;
+    const Hit *known;     // what it hits; NULL: what it meets
+    SampleStream *stream; // what it draws numbers from; may be NULL
+} CameraRay;
+
+// The light that one camera ray brings back.
+RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, ShadePath path, const CameraRay *camera_ray,
+                               RayStack *stack, RenderStatistics *statistics)
 {
-    StackedRay first = {.ray = ray,
+    SampleStream *stream = camera_ray->stream;
+    StackedRay first = {.ray = camera_ray->ray,
                         .start = RAY_START_CAMERA,
                         .share = rgb_grey(1.0),
                         .weight = 1.0,
                         .level = 1,
-                        .known = known};
+                        .known = camera_ray->known};
     if (features & (RENDER_REFLECTION | RENDER_TRANSPARENCY)) {
         shade_path_begin(p, features, &first, stack);
         return path(p, stack, stream, statistics);
@@ -375,7 +383,7 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, ShadePath p
     ShadingPoint at;
     ScatterRecord scatter;
     return shade_find(p, features, &first, stream, &at) ? shade_surface(p, features, &at, 1.0, &scatter, statistics)
-                                                        : shade_miss(p, features, ray.direction);
+                                                        : shade_miss(p, features, camera_ray->ray.direction);
 }
 
 #endif
