@@ -128,6 +128,23 @@ def hills(count):
            "translate -0.5 scale <4, 0.8, 4> rotate -35*x pigment { rgb 0.8 } }\n")
 
 
+def ball_of_faces(count):
+    """One mesh2 of about so many triangles, a ball with bumps."""
+    rows = max(2, round((count / 2) ** 0.5))
+    yield f"mesh2 {{ vertex_vectors {{ {(rows + 1) * rows}"
+    for i in range(rows + 1):
+        for j in range(rows):
+            a, b = math.pi * i / rows, 2 * math.pi * j / rows
+            r = 1 + 0.05 * math.sin(9 * a) * math.sin(7 * b)
+            yield f",\n<{r * math.sin(a) * math.cos(b):.6f}, {r * math.cos(a):.6f}, {r * math.sin(a) * math.sin(b):.6f}>"
+    yield f" }}\nface_indices {{ {2 * rows * rows}"
+    for i in range(rows):
+        for j in range(rows):
+            here, right = i * rows + j, i * rows + (j + 1) % rows
+            yield f",\n<{here}, {right}, {here + rows}>,\n<{right}, {right + rows}, {here + rows}>"
+    yield " }\npigment { rgb 0.8 } }\n"
+
+
 def large(text):
     """One that fills the picture; it has no size to grow by."""
     def scene(_count):
@@ -266,6 +283,7 @@ KINDS = {
     "one text": large(WORD + " translate -0.9*x scale 0.7"),
     "one isosurface": large(WAVES),
     "one height field": hills,
+    "one mesh2": ball_of_faces,
     "equal boxes in one place": each(lambda p: "box { -0.5, 0.5 pigment { rgb 0.7 } }\n"),
     "boxes in a large box": within("box { -1e6, 1e6 pigment { rgb 0.6 } }\n", box),
     "boxes on a large disc": within("disc { -y, y, 1e6 pigment { rgb 0.6 } }\n", box),
