@@ -42,17 +42,17 @@ syn keyword rtlangWord matrix max_gradient max_intersections max_iteration max_t
 syn keyword rtlangWord media_attenuation media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar
 syn keyword rtlangWord no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator normal
 syn keyword rtlangWord normal_map number_of_waves object octaves offset omega omnimax once onion open orient
-syn keyword rtlangWord orientation orthographic panoramic parallel pattern perspective pgm phase phong
-syn keyword rtlangWord phong_size pigment pigment_map pigment_pattern planar plane png point_at poly poly_wave
-syn keyword rtlangWord polygon ppm precision premultiplied prism quadric quartic quaternion quick_color
-syn keyword rtlangWord quick_colour quilted radial radius rainbow ramp_wave reflection reflection_exponent
-syn keyword rtlangWord refraction repeat right ripples rotate roughness scale scallop_wave shadowless
-syn keyword rtlangWord sine_wave sky sky_sphere slice slope slope_map smooth smooth_triangle solid sor
-syn keyword rtlangWord specular sphere sphere_sweep spherical spiral1 spiral2 split_union spotlight spotted
-syn keyword rtlangWord sqr strength sturm superellipsoid text texture texture_map tga thickness threshold tiff
-syn keyword rtlangWord tightness tiles tolerance toroidal torus transform translate triangle triangle_wave
-syn keyword rtlangWord turb_depth turbulence ultra_wide_angle union up uv_mapping variance warp water_level
-syn keyword rtlangWord waves width wood wrinkles
+syn keyword rtlangWord orientation orthographic ovus panoramic parallel parametric pattern perspective pgm
+syn keyword rtlangWord phase phong phong_size pigment pigment_map pigment_pattern planar plane png point_at
+syn keyword rtlangWord poly poly_wave polygon ppm precision precompute premultiplied prism quadric quartic
+syn keyword rtlangWord quaternion quick_color quick_colour quilted radial radius rainbow ramp_wave reflection
+syn keyword rtlangWord reflection_exponent refraction repeat right ripples rotate roughness scale scallop_wave
+syn keyword rtlangWord shadowless sine_wave sky sky_sphere slice slope slope_map smooth smooth_triangle solid
+syn keyword rtlangWord sor specular sphere sphere_sweep spherical spiral1 spiral2 split_union spotlight
+syn keyword rtlangWord spotted sqr strength sturm superellipsoid text texture texture_map tga thickness
+syn keyword rtlangWord threshold tiff tightness tiles tolerance toroidal torus transform translate triangle
+syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up uv_mapping variance warp
+syn keyword rtlangWord water_level waves width wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number
