@@ -411,6 +411,7 @@ lang_cases = \
   %D%/lang/isosurface.test \
   %D%/lang/julia.test \
   %D%/lang/parametric.test \
+  %D%/lang/given_surfaces.test \
   %D%/lang/ovus.test \
   %D%/lang/shapes.test \
   %D%/lang/sweep.test \

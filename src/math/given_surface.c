@@ -133,6 +133,182 @@ static double kummer_surface(const Noise *noise, const double *a)
     return field(a[3], x2 * x2 + y2 * y2 + z2 * z2 - x2 - y2 - z2 - x2 * y2 - x2 * z2 - y2 * z2 + 1.0);
 }
 
+static double bicorn(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double size2 = a[4] * a[4], in = x2 + z2 + 2.0 * a[4] * a[1] - size2;
+    (void)noise;
+    return field(a[3], in * in - y2 * (size2 - x2 - z2));
+}
+
+static double bifolia(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double sum = x2 + y2 + z2;
+    (void)noise;
+    return field(a[3], sum * sum - a[4] * a[1] * (x2 + z2));
+}
+
+static double boy(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double z = a[2], in = 1.0 - z, across = x2 + y2, root2 = 0x1.6a09e667f3bcdp+0;
+    double one = 64.0 * in * in * in * z2 * z - 48.0 * in * in * z2 * (3.0 * across + 2.0 * z2);
+    double two =
+        27.0 * across * across - 24.0 * z2 * across + 36.0 * root2 * a[1] * z * (y2 - 3.0 * x2) + 4.0 * z2 * z2;
+    double three =
+        -81.0 * across * across - 72.0 * z2 * across + 108.0 * root2 * a[0] * z * (x2 - 3.0 * y2) + 4.0 * z2 * z2;
+    (void)noise;
+    return field(-a[3], a[4] * (one + 12.0 * in * z * two + (9.0 * across - 2.0 * z2) * three));
+}
+
+static double folium(const Noise *noise, const double *a)
+{
+    double x = a[0], across = a[1] * a[1] + a[2] * a[2];
+    (void)noise;
+    return field(-a[3], across * (1.0 + (a[5] - 4.0 * a[4]) * x) + (1.0 + a[5]) * x * x);
+}
+
+static double spikes_2d(const Noise *noise, const double *a)
+{
+    (void)noise;
+    return a[1] - a[3] * cos(a[4] * a[0]) * cos(a[5] * a[2]) * exp(-a[6] * (a[0] * a[0] + a[2] * a[2]));
+}
+
+static double glob(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], y2 + z2 - 0.5 * x2 * x2 * (a[0] + 1.0));
+}
+
+static double hunt(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double ball = x2 + y2 + z2 - 13.0, cone = 3.0 * x2 + y2 - 4.0 * z2 - 12.0;
+    (void)noise;
+    return field(a[3], 4.0 * ball * ball * ball + 27.0 * cone * cone);
+}
+
+static double hyperbolic_torus(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double major2 = a[4] * a[4], sum = x2 + y2 - z2 + major2 - a[5] * a[5];
+    (void)noise;
+    return field(a[3], sum * sum - 4.0 * major2 * (x2 - z2));
+}
+
+static double kampyle(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], y2 + z2 - a[5] * a[5] * (x2 * x2 - a[4] * a[4] * x2));
+}
+
+static double klein_bottle(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double sum = x2 + y2 + z2, in = sum - 2.0 * a[1] - 1.0;
+    (void)noise;
+    return field(a[3], (sum + 2.0 * a[1] - 1.0) * (in * in - 8.0 * z2) + 16.0 * a[0] * a[2] * in);
+}
+
+static double kummer_surface2(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], x2 * x2 + y2 * y2 + z2 * z2 - 1.0 + a[4] * (x2 + y2 + z2) +
+                           a[5] * (x2 * y2 + x2 * z2 + y2 * z2) + a[6] * a[0] * a[1] * a[2]);
+}
+
+static double lemniscate(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], x2 * x2 - x2 + y2 + z2);
+}
+
+static double nodal_cubic(const Noise *noise, const double *a)
+{
+    double y = a[1], z = a[2];
+    (void)noise;
+    return field(a[3], y * y * y + z * z * z - 6.0 * y * z);
+}
+
+static double odd(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double across = x2 + y2;
+    (void)noise;
+    return field(-a[3], across - across * across + 2.0 * y2 * a[2] + (x2 - y2) * z2 - z2 * (2.0 - 2.0 * a[2] + z2));
+}
+
+static double ovals_of_cassini(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double major2 = a[4] * a[4], sum = x2 + y2 + z2 + major2;
+    (void)noise;
+    return field(a[3], sum * sum - a[6] * major2 * (x2 + z2) - a[5] * a[5]);
+}
+
+static double parabolic_torus(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], major2 = a[4] * a[4], more = major2 - a[5] * a[5];
+    double sum = x2 + y2 - a[2];
+    (void)noise;
+    return field(a[3], sum * sum + more * sum + more * more - 2.0 * major2 * (x2 - a[2]));
+}
+
+static double pillow(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(-a[3], x2 * x2 - x2 + y2 * y2 - y2 + z2 * z2 - z2);
+}
+
+static double piriform(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(-a[3], x2 * x2 - x2 * a[0] + y2 + z2);
+}
+
+static double quartic_cylinder(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double width2 = a[5] * a[5];
+    (void)noise;
+    return field(a[3], (x2 + z2) * (y2 + width2) - a[4] * a[4] * width2);
+}
+
+static double strophoid(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    (void)noise;
+    return field(-a[3], (y2 + z2) * (a[0] - a[5]) + a[6] * a[6] * x2 * (a[0] + a[4]));
+}
+
+static double torus_gumdrop(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], y2 = a[1] * a[1], z2 = a[2] * a[2];
+    double across = y2 + z2;
+    (void)noise;
+    return field(a[3], 4.0 * (x2 * x2 + across * across) + 17.0 * x2 * across - 20.0 * (x2 + across) + 17.0);
+}
+
+static double umbrella(const Noise *noise, const double *a)
+{
+    (void)noise;
+    return field(a[3], a[0] * a[0] - a[1] * a[2] * a[2]);
+}
+
+static double witch_of_agnesi(const Noise *noise, const double *a)
+{
+    double x2 = a[0] * a[0], z2 = a[2] * a[2];
+    (void)noise;
+    return field(a[3], a[4] * (a[1] - 1.0) + a[1] * (x2 + z2));
+}
+
 // From -length / 2 to length / 2, again and again.
 static double nearest(double x, double length)
 {
@@ -185,24 +361,47 @@ typedef struct Row {
 } Row;
 
 static const Row rows[GIVEN_SURFACES] = {
+    [4] = {bicorn, 5},
+    [5] = {bifolia, 5},
+    [8] = {boy, 5},
     [11] = {crossed_trough, 4},
     [12] = {cubic_saddle, 4},
     [13] = {cushion, 4},
     [14] = {devils_curve, 4},
     [17] = {ellipsoid, 6},
+    [20] = {folium, 6},
+    [22] = {glob, 4},
     [23] = {heart, 4},
     [27] = {hexagons, 4},
+    [30] = {hunt, 4},
+    [31] = {hyperbolic_torus, 6},
+    [33] = {kampyle, 6},
+    [35] = {klein_bottle, 4},
     [36] = {kummer_surface, 4},
+    [37] = {kummer_surface2, 7},
+    [38] = {lemniscate, 4},
     [41] = {mitre, 4},
+    [42] = {nodal_cubic, 4},
+    [43] = {odd, 4},
+    [44] = {ovals_of_cassini, 7},
     [45] = {paraboloid, 4},
+    [46] = {parabolic_torus, 6},
+    [48] = {pillow, 4},
+    [49] = {piriform, 4},
     [54] = {quartic_paraboloid, 4},
     [55] = {quartic_saddle, 4},
+    [56] = {quartic_cylinder, 6},
     [59] = {ridged_multifractal, 9},
     [60] = {rounded_box, 7},
+    [63] = {spikes_2d, 7},
     [65] = {steiners_roman, 4},
+    [66] = {strophoid, 7},
     [68] = {superellipsoid, 5},
     [70] = {torus, 5},
     [71] = {torus2, 6},
+    [72] = {torus_gumdrop, 4},
+    [73] = {umbrella, 4},
+    [74] = {witch_of_agnesi, 5},
 };
 
 unsigned given_surface_arguments(unsigned number)

@@ -44,6 +44,16 @@ static bool read_function(Block *block, const char *what, const Function **funct
     return true;
 }
 
+// Behind a fault: nothing is said of the other functions.
+static bool pass_functions(Block *block)
+{
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor)) && item->kind == AST_FUNCTION) {
+        cursor_skip(&block->cursor);
+    }
+    return false;
+}
+
 // A corner of the rectangle; a number is both.
 static bool read_corner(Block *block, double corner[2])
 {
@@ -109,7 +119,7 @@ bool parametric_body(Block *block)
     double a[2], b[2];
     for (int axis = 0; axis < 3; axis++) {
         if (!read_function(block, coordinates[axis], &desc->functions[axis])) {
-            return false;
+            return pass_functions(block);
         }
         if (axis < 2) {
             cursor_take_comma(&block->cursor);
