@@ -25,7 +25,7 @@ typedef struct ShapesTile {
     TileHits *hits;                // the same's
     uint64_t bounded, approximate; // the rays of whose first hit's span only a bound is known; whose root is a ball's
                                    // and approximate
-    uint64_t walking;              // the rays that the tree is walked for
+    uint64_t walking;              // the rays that the tree is walked for, or all
     double far;                    // of the rays' origin from 0
     double limit;                  // up to where something may yet be the first of some ray
     _Alignas(64) double enter[TILE_RAYS];  // bounded_enter of a ShapeQuery
@@ -439,6 +439,7 @@ static void tile_refine_roots(ShapesTile *of)
 static bool tile_unbounded(ShapesTile *of)
 {
     bool are_all = true;
+    of->walking = ~UINT64_C(0);
     for (uint32_t i = 0; i < of->table->unbounded_count; i++) {
         ShapeItem item = of->table->items[i];
         if (item & ITEM_LANES) {
