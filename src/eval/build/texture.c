@@ -243,11 +243,15 @@ static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena 
     }
 }
 
+// The object of a `looks_like` may be missing: that is reported, and what follows it is read nevertheless.
+static bool has_object(const Block *block)
+{
+    return schema_kind(block->is)->is_object || block->kind == KIND_LOOKS_LIKE;
+}
+
 const TextureDesc **texture_place(Block *block)
 {
-    // The object of a `looks_like` may be missing: that is reported, and what follows it is read nevertheless.
-    bool is_component = block->kind == KIND_BLOB_BALL || block->kind == KIND_BLOB_ROD;
-    bool is_object = schema_kind(block->is)->is_object || block->kind == KIND_LOOKS_LIKE || is_component;
+    bool is_object = has_object(block) || block->kind == KIND_BLOB_BALL || block->kind == KIND_BLOB_ROD;
     return block->kind == KIND_MATERIAL ? &block->record->material.texture
            : is_object                  ? &block->record->part.texture
                                         : NULL;
@@ -278,9 +282,9 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
 
 const TextureDesc **inner_texture_place(Block *block)
 {
-    return block->kind == KIND_MATERIAL        ? &block->record->material.inner
-           : schema_kind(block->is)->is_object ? &block->record->part.inner
-                                               : NULL;
+    return block->kind == KIND_MATERIAL ? &block->record->material.inner
+           : has_object(block)          ? &block->record->part.inner
+                                        : NULL;
 }
 
 bool inner_texture_action(Block *block, const SchemaProperty *property, const AstNode *item)
