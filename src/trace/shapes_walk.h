@@ -393,7 +393,7 @@ static void primitive_closest(ShapeQuery *q, uint32_t index, Foremost *first)
         return;
     }
     bool is_start = q->left && primitive_equal(q->left, primitive);
-    bool inward = q->start.inward != primitive->flips;
+    bool inward = is_start && q->start.inward != q->left->flips; // of the body, whose twin may be inverse
     if (is_start && ((!inward && primitive_is_convex(primitive)) || primitive_is_flat(primitive))) {
         return;
     }

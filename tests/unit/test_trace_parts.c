@@ -481,9 +481,43 @@ static void test_told(uint64_t seed, PrimitiveKind kind, double most)
            met, missed, wrong, worst);
 }
 
+// Of two equal solids one is inverse. A ray that leaves the surface outward has left both.
+static void test_inverse_twin(uint64_t seed, PrimitiveKind kind)
+{
+    Random random = {seed};
+    int met = 0, again = 0;
+    for (int turn = 0; turn < 100; turn++) {
+        Scene scene;
+        scene_init(&scene);
+        Primitive primitive = part_at(&random, kind, 1.0, random_point(&random, 3.0), false);
+        add_primitive(&scene, &primitive);
+        primitive.flags = PRIMITIVE_INVERSE;
+        add_primitive(&scene, &primitive);
+        Geometry *g = prepare(&scene, 0);
+        const double *middle = primitive.to_world.m[3];
+        Vec3 towards = vec3_neg(random_direction(&random)), centre = vec3(middle[0], middle[1], middle[2]);
+        Ray ray = {vec3_add_scaled(centre, -9.0, towards), towards};
+        Hit hit, other;
+        if (closest(g, ray, RAY_START_CAMERA, (double)INFINITY, &hit)) {
+            Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit);
+            Ray back = {surface.point, vec3_neg(towards)};
+            RayStart start = {hit.shape, vec3_dot(surface.normal, back.direction) < 0.0, 0};
+            met++;
+            again += closest(g, back, start, (double)INFINITY, &other);
+        }
+        geometry_free(g);
+        scene_fini(&scene);
+    }
+    tap_ok(met > 50 && again == 0, "%s with an inverse twin: %d of %d rays that leave meet it again",
+           kind == PRIMITIVE_BOX ? "boxes" : kind == PRIMITIVE_CONE ? "cones" : "balls", again, met);
+}
+
 int main(void)
 {
     uint64_t seed = random_seed(NULL);
+    test_inverse_twin(seed, PRIMITIVE_SPHERE);
+    test_inverse_twin(seed, PRIMITIVE_BOX);
+    test_inverse_twin(seed, PRIMITIVE_CONE);
     test_told(seed, PRIMITIVE_TORUS, 0x1p-52);
     test_told(seed, PRIMITIVE_POLYNOMIAL, 0x1p-44);
     test_told(seed, PRIMITIVE_BLOB, 0x1p-43);
