@@ -53,21 +53,21 @@ RT_ALWAYS_INLINE Doubles start_along(const PreparedPrimitive *left, uint8_t side
 static void group_set_passed(ShapeGroup *from, const RayGroup *group)
 {
     const PreparedPrimitive *left = from->left;
-    bool has_lanes = left && kind_has_lanes(left->kind);
+    uint8_t side = primitive_side(from->start.shape);
+    bool is_known = left && kind_has_lanes(left->kind) && start_has_along(left, side);
     bool is_round = left ? (left->family & FAMILY_ROUND) != 0 : shape_kind(from->start.shape) == SHAPE_SPHERE;
     bool is_straight = left ? (left->family & FAMILY_STRAIGHT) != 0 : !is_round;
     bool is_curve = left && kind_is_curve((PrimitiveKind)left->kind);
-    LanePrimitive own;
+    LanePrimitive own = {0};
     from->far = vec3_length(group->end) + group->farthest;
-    if (has_lanes) {
+    if (is_known) {
         lane_primitive_set(&own, left, from->far);
     }
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
         Doubles passed = doubles_splat(left ? (double)INFINITY : 0.0); // not known, or exact
-        if (has_lanes && start_has_along(left, primitive_side(from->start.shape))) {
+        if (is_known) {
             RayLanes rays = lane_primitive_ray(&own, group->origin, group->direction, at);
-            passed =
-                own.slack.fixed / doubles_abs(start_along(left, primitive_side(from->start.shape), rays.f, rays.d));
+            passed = own.slack.fixed / doubles_abs(start_along(left, side, rays.f, rays.d));
         } else if (!left && is_straight) {
             for (unsigned i = 0; i < DOUBLES; i++) {
                 passed[i] = from->start_error[at + i < group->count ? at + i : group->count - 1];
