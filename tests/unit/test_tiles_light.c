@@ -145,7 +145,7 @@ static void random_scene(Random *random, const Extras *extras, Scene *scene)
     int count = counts[random_bits(random) % 3];
     scene_init(scene);
     if (extras->clear) {
-        scene->settings.max_trace_level = 1 + (int)(random_bits(random) % 14);
+        scene->settings.max_trace_level = 1 + (int)(random_bits(random) % 8); // shells that mirror double the rays
         scene->settings.adc_bailout = random_bits(random) % 2 ? 1.0 / 255 : 0.02;
         scene->settings.version = random_bits(random) % 4 ? 3.7 : 3.6;
     }
