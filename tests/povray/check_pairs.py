@@ -58,6 +58,8 @@ LEFT_OUT = {
     "ovus": "tests/povray/shape_ovus*.scn have it",
     "julia_fractal quaternion sqr cube max_iteration precision slice": "tests/povray/shape_julia_fractal*.scn have them",
     "magnet exterior": "tests/povray/pattern_fractal_*.scn have them",
+    "interior_texture": "tests/povray/texture_interior*.scn have it",
+    "light_group global_lights double_illuminate": "tests/povray/light_group.scn and light_double_illuminate.scn have them",
     "perspective split_union": "on unless something else is said; tests/povray/*.scn have them",
     "camera light_source sphere global_settings declare": "in every scene",
 }
