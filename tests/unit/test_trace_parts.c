@@ -498,7 +498,7 @@ static void test_inverse_twin(uint64_t seed, PrimitiveKind kind)
         Vec3 towards = vec3_neg(random_direction(&random)), centre = vec3(middle[0], middle[1], middle[2]);
         Ray ray = {vec3_add_scaled(centre, -9.0, towards), towards};
         Hit hit, other;
-        if (closest(g, ray, RAY_START_CAMERA, (double)INFINITY, &hit)) {
+        if (closest(g, ray, RAY_START_CAMERA, (double)INFINITY, &hit) && !hit.inside) { // or it is in them
             Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit);
             Ray back = {surface.point, vec3_neg(towards)};
             RayStart start = {hit.shape, vec3_dot(surface.normal, back.direction) < 0.0, 0};
