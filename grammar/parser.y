@@ -57,6 +57,7 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state);
 
 // Most texts nest a few levels; the limit is reached only after the AST's own depth limit, or by parentheses.
 #define YYMAXDEPTH 20000
+#define YYINITDEPTH 100 // on the stack; what is deeper is moved from there
 
 static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 }

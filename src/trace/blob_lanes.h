@@ -13,7 +13,7 @@
 #include "scene/blob.h"
 #include "trace/line_lanes.h"
 
-enum { BLOB_NEAR_MOST = 24, BLOB_STEPS_MOST = 24, BLOB_NODES_DEEP = 64 };
+enum { BLOB_NEAR_MOST = 20, BLOB_STEPS_MOST = 24, BLOB_NODES_DEEP = 64 };
 
 // What some lines are in the space of a component: its field is strength (1 - d²)² between `enter` and `leave`, with
 // 1 - d² = depth - square (t - middle)², less the square of how far the line is beyond an end of a rod along it.
