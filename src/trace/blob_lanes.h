@@ -317,8 +317,8 @@ RT_ALWAYS_INLINE void blob_lanes_go(const BlobLanes *blob, bool starts, unsigned
         open &= ~is_start | (slope < 0.0); // on the surface the slope says which way it goes
         DoublesMask is_over = (place.rest * (1.0 + 0x1p-30) + blob->room < blob->threshold) | (steps->t > blob->last);
         Doubles rise = place.slope - blob->slope_room, apart = doubles_max(below, zero) + 2.0 * blob->room;
-        DoublesMask is_root =
-            ~is_start & (rise > 2.0 * blob->slope_room) & (blob->bends * apart < 0x1p-20 * rise * rise);
+        DoublesMask is_root = ~is_start & (rise > 2.0 * blob->slope_room) & (below > -4.0 * blob->room) & // not inside
+                              (blob->bends * apart < 0x1p-20 * rise * rise);
         steps->missed |= open & is_over;
         steps->found |= open & ~is_over & is_root;
         open &= ~is_over & ~is_root & ((below > 0.0) | is_start);
@@ -388,7 +388,8 @@ static __attribute__((noinline)) bool blob_lanes_first(const double *list, bool 
     if (!found->possible) {
         return false;
     }
-    found->certain = doubles_mask_bits(steps.found & blob_lanes_refine(&blob, f, d, threshold_error, steps.t, found));
+    DoublesMask is_good = blob_lanes_refine(&blob, f, d, threshold_error, steps.t, found);
+    found->certain = doubles_mask_bits(steps.found & is_good & (found->root > 0.0));
     return true;
 }
 
