@@ -417,7 +417,7 @@ static void test_family(uint64_t seed, const Family *family)
 // The first end ahead of what a primitive's own class says of a ray that is not asked by lanes; INFINITY: none.
 static double class_root(const PreparedPrimitive *primitive, const Ray *ray)
 {
-    RayInterval intervals[4];
+    RayInterval intervals[primitive->interval_most + 1];
     Ray object = primitive_ray(primitive, ray);
     double root = (double)INFINITY;
     unsigned count = primitive_intervals(primitive, &object, LEFT_NONE, intervals);
