@@ -102,6 +102,18 @@ typedef struct FormulaHost {
     const void *client;
 } FormulaHost;
 
+// What a shape's formulas are done with: its own steps and number of a NoiseGenerator, and what its host has, if any.
+static inline FormulaSource formula_source_of(const FormulaStep *steps, double generator, const FormulaHost *host)
+{
+    FormulaSource source = {.steps = steps, .generator = (NoiseGenerator)generator};
+    if (host) {
+        source.noise = host->noise;
+        source.painted = host->painted;
+        source.client = host->client;
+    }
+    return source;
+}
+
 // What FORMULA_PIGMENT makes of a colour: red, green, blue, filter and transmit.
 double formula_component(const FormulaStep *step, const double v[5]);
 

@@ -33,11 +33,7 @@ static double value_at(const double *list, const FormulaSource *source, Vec3 p)
 
 static FormulaSource source_of(const double *list, const FormulaHost *host)
 {
-    return (FormulaSource){.steps = isosurface_steps(list),
-                           .noise = host ? host->noise : NULL,
-                           .generator = (NoiseGenerator)isosurface_of(list)->generator,
-                           .painted = host ? host->painted : NULL,
-                           .client = host ? host->client : NULL};
+    return formula_source_of(isosurface_steps(list), isosurface_of(list)->generator, host);
 }
 
 double isosurface_value(const double *list, const FormulaHost *host, Vec3 p)

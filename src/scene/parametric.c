@@ -55,11 +55,7 @@ void parametric_bounds(const Parametric *surface, Vec3 *low, Vec3 *high)
 
 static FormulaSource source_of(const double *list, const FormulaHost *host)
 {
-    return (FormulaSource){.steps = parametric_steps(list),
-                           .noise = host ? host->noise : NULL,
-                           .generator = (NoiseGenerator)parametric_of(list)->generator,
-                           .painted = host ? host->painted : NULL,
-                           .client = host ? host->client : NULL};
+    return formula_source_of(parametric_steps(list), parametric_of(list)->generator, host);
 }
 
 static double value_of(const FormulaSource *source, const Parametric *surface, int axis, double u, double v)
