@@ -9,6 +9,7 @@
 #include "math/extreme.h"
 #include "scene/mesh_field.h"
 #include "trace/bvh_walk.h"
+#include "trace/mesh_field_tree.h"
 
 // ---- the tree
 
@@ -22,28 +23,44 @@ static void refs_init(const MeshTable *table, BvhRef *refs)
     }
 }
 
+// The tree of faces in any order, which it puts into its own.
+static bool tree_of_faces(MeshTable *table, int threads, const atomic_bool *cancel)
+{
+    uint32_t count = table->mesh->face_count;
+    Pages pages = {0};
+    if (!pages_take(&pages, count * sizeof(BvhRef))) {
+        return false;
+    }
+    BvhRef *refs = pages.memory;
+    refs_init(table, refs);
+    bool done = bvh_build(&table->tree, refs, count, BVH_LEAF_EIGHT, threads, cancel);
+    for (uint32_t i = 0; done && i < count; i++) {
+        table->faces[i] = bvh_ref_index(&refs[i]);
+    }
+    pages_give(&pages);
+    return done;
+}
+
+// The tree of a field of heights, whose faces are in order.
+static bool tree_of_field(MeshTable *table, const atomic_bool *cancel)
+{
+    for (uint32_t i = 0; i < table->mesh->face_count; i++) {
+        table->faces[i] = i;
+    }
+    return mesh_field_tree_build(&table->tree, table->mesh, cancel);
+}
+
 MeshTable *mesh_table_new(const Mesh *mesh, int threads, const atomic_bool *cancel)
 {
     MeshTable *table = calloc(1, sizeof *table);
-    Pages ref_pages = {0};
     if (!table) {
         return NULL;
     }
     table->mesh = mesh;
-    bool done = pages_take(&ref_pages, mesh->face_count * sizeof(BvhRef)) &&
-                pages_take(&table->face_pages, mesh->face_count * sizeof *table->faces);
-    if (done) {
-        BvhRef *refs = ref_pages.memory;
-        table->faces = table->face_pages.memory;
-        bvh_place(&table->tree, mesh->low, mesh->high);
-        refs_init(table, refs);
-        done = bvh_build(&table->tree, refs, mesh->face_count, BVH_LEAF_EIGHT, threads, cancel);
-        for (uint32_t i = 0; done && i < mesh->face_count; i++) {
-            table->faces[i] = bvh_ref_index(&refs[i]);
-        }
-    }
-    pages_give(&ref_pages);
-    if (!done) {
+    bvh_place(&table->tree, mesh->low, mesh->high);
+    bool done = pages_take(&table->face_pages, mesh->face_count * sizeof *table->faces);
+    table->faces = table->face_pages.memory;
+    if (!done || !(mesh->field ? tree_of_field(table, cancel) : tree_of_faces(table, threads, cancel))) {
         mesh_table_free(table);
         return NULL;
     }

@@ -211,20 +211,81 @@ static void check_points(void)
     mesh_free(mesh);
 }
 
+static Mesh *field_of(Random *random, uint32_t across, uint32_t along)
+{
+    Mesh *mesh = mesh_field_new(across, along);
+    if (!mesh) {
+        abort();
+    }
+    for (uint32_t i = 0; i < across * along; i++) {
+        mesh->field->heights[i] = (uint16_t)random_below(random, FIELD_HEIGHTS);
+    }
+    mesh_field_build(mesh);
+    return mesh;
+}
+
+// The face that a ray meets first, of all.
+static uint32_t first_face(const Mesh *mesh, const Ray *ray)
+{
+    MeshRay shear = mesh_ray_make(ray);
+    MeshPoint at;
+    double nearest = (double)INFINITY;
+    uint32_t first = MESH_NO_FACE;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        if (mesh_ray_crosses(&shear, mesh, face, &at) && at.t > 0.0 && at.t < nearest) {
+            nearest = at.t;
+            first = face;
+        }
+    }
+    return first;
+}
+
+// What a ray meets of a field by its tree is what it meets of all its faces, however narrow the field is and wherever
+// between its cells the ray goes.
+static void check_field_tree(uint32_t across, uint32_t along, uint64_t seed)
+{
+    Random random = {seed};
+    Scene scene;
+    Mesh *mesh = field_of(&random, across, along);
+    Geometry *g = geometry_of(&scene, mesh, transform_identity());
+    Vec3 size = mesh_field_size(mesh->field);
+    uint64_t wrong = 0;
+    for (int i = 0; i < 3000; i++) {
+        Vec3 eye = vec3_mul(size, random_vec3(&random, -0.5, 1.5)),
+             aim = vec3_mul(size, random_vec3(&random, 0.0, 1.0));
+        if (i % 2 == 0) {
+            aim.x = floor(aim.x);
+            eye.x = i % 4 == 0 ? aim.x : eye.x;
+            aim.z = i % 3 == 0 ? floor(aim.z) : aim.z;
+        }
+        Ray ray = {eye, vec3_normalize(vec3_sub(aim, eye))};
+        Hit hit;
+        uint32_t found =
+            closest(g, ray, RAY_START_FREE, (double)INFINITY, &hit) ? shape_index(hit.shape) : MESH_NO_FACE;
+        wrong += found != first_face(mesh, &ray);
+    }
+    tap_ok(wrong == 0, "field of %u x %u heights: of 3000 rays %llu do not meet what is first", across, along,
+           (unsigned long long)wrong);
+    geometry_free(g);
+    scene_fini(&scene);
+}
+
+static void check_field_trees(Random *random, uint64_t seed)
+{
+    const uint32_t sizes[][2] = {{2, 2}, {2, 300}, {300, 2}, {3, 60}, {60, 4}, {5, 3}, {9, 9}, {65, 17}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        check_field_tree(sizes[i][0], sizes[i][1], seed + i);
+    }
+    check_field_tree(2 + random_below(random, 40), 2 + random_below(random, 40), seed + 20);
+}
+
 // Above a field of heights a line straight up crosses no face, below it one.
 static void check_field(uint64_t seed)
 {
     Random random = {seed};
     uint32_t across = 2 + random_below(&random, 30), along = 2 + random_below(&random, 30);
-    Mesh *mesh = mesh_field_new(across, along);
-    if (!mesh) {
-        abort();
-    }
+    Mesh *mesh = field_of(&random, across, along);
     MeshField *field = mesh->field;
-    for (uint32_t i = 0; i < field->columns * field->rows; i++) {
-        field->heights[i] = (uint16_t)random_below(&random, FIELD_HEIGHTS);
-    }
-    mesh_field_build(mesh);
     uint64_t wrong = 0;
     for (int i = 0; i < 3000; i++) {
         Vec3 point = vec3_mul(mesh_field_size(field), random_vec3(&random, -0.1, 1.1));
@@ -257,6 +318,7 @@ int main(int argc, char **argv)
     check_points();
     check_field(seed + 7);
     check_field(seed + 8);
+    check_field_trees(&random, seed + 9);
     check_closed("globe", globe(&random, 0.0, 1.0), none, rays, seed + 1);
     check_closed("rough globe", globe(&random, 0.3, 1.0), none, rays, seed + 2);
     check_closed("flat globe", globe(&random, 0.1, 1e-3), turned, rays, seed + 3);
