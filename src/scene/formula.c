@@ -74,12 +74,6 @@ static double of_one(FormulaOp op, double a)
 static double of_two(FormulaOp op, double a, double b)
 {
     switch (op) {
-    case FORMULA_ADD:
-        return a + b;
-    case FORMULA_SUB:
-        return a - b;
-    case FORMULA_MUL:
-        return a * b;
     case FORMULA_DIV:
         return a / b;
     case FORMULA_EQ:
@@ -168,22 +162,48 @@ static unsigned of_more(const Place *place, const FormulaStep *step, double *top
     }
 }
 
+// Of the steps that most formulas are made of, the last number, top[-1], is at hand in `last`.
 void formula_run(const FormulaSource *source, uint32_t first, const double *slots, double *top)
 {
-    Place place = {source, slots};
-    for (uint32_t i = first; i != RECORD_NONE; i = source->steps[i].next) {
+    const Place place = {source, slots};
+    double last = 0.0;
+    for (uint32_t i = first; i != RECORD_NONE;) {
         const FormulaStep *step = &source->steps[i];
         FormulaOp op = (FormulaOp)step->op;
-        if (op <= FORMULA_SLOT) {
-            *top++ = op == FORMULA_NUMBER ? step->number : slots[step->which];
-        } else if (op <= FORMULA_MAX) {
-            top[-2] = of_two(op, top[-2], top[-1]);
+        i = step->next;
+        switch (op) {
+        case FORMULA_NUMBER:
+            last = step->number;
+            top++;
+            break;
+        case FORMULA_SLOT:
+            last = slots[step->which];
+            top++;
+            break;
+        case FORMULA_ADD:
+            last = top[-2] + last;
             top--;
-        } else if (op <= FORMULA_RADIANS) {
-            top[-1] = of_one(op, top[-1]);
-        } else {
-            top -= of_more(&place, step, top) - 1;
+            break;
+        case FORMULA_SUB:
+            last = top[-2] - last;
+            top--;
+            break;
+        case FORMULA_MUL:
+            last = top[-2] * last;
+            top--;
+            break;
+        default:
+            if (op <= FORMULA_MAX) {
+                last = of_two(op, top[-2], last);
+                top--;
+            } else if (op <= FORMULA_RADIANS) {
+                last = of_one(op, last);
+            } else {
+                top -= of_more(&place, step, top) - 1;
+                last = top[-1];
+            }
         }
+        top[-1] = last;
     }
 }
 
