@@ -25,17 +25,17 @@ static double cubic_slope(const double f[4], double s)
     return ((f[1] - f[0]) * r + 2.0 * s * (f[2] - f[1])) * r + s * s * (f[3] - f[2]);
 }
 
-// The root between two places where the signs differ; `is_low_below`: it is below 0 at the first.
-static double cubic_root(const double f[4], double low, double high, bool is_low_below)
+// The root between two places where the signs differ, from `s` on; at the first of them it is `at_low`. A step of 2^-44
+// leaves what rounding of the values does.
+static double cubic_root(const double f[4], double low, double high, double at_low, double s)
 {
-    double at_low = cubic_at(f, low), at_high = cubic_at(f, high);
-    double s = low + (high - low) * (at_low / (at_low - at_high));
+    bool is_low_below = at_low < 0.0;
     s = s > low && s < high ? s : 0.5 * (low + high);
     for (int i = 0; i < STEPS_MOST && low < s && s < high; i++) {
         double value = cubic_at(f, s), next = s - value / (3.0 * cubic_slope(f, s));
         *((value < 0.0) == is_low_below ? &low : &high) = s;
-        if (value == 0.0 || fabs(next - s) <= 0x1p-53 * s) {
-            return s;
+        if (value == 0.0 || fabs(next - s) <= 0x1p-44 * s) {
+            return next > low && next < high ? next : s;
         }
         s = next > low && next < high ? next : 0.5 * (low + high);
     }
@@ -48,7 +48,8 @@ static unsigned cubic_extrema(const double f[4], double at[2])
     double a = f[1] - f[0], b = f[2] - f[1], c = f[3] - f[2]; // (1-s)² a + 2 s (1-s) b + s² c
     double square = (a - b) - (b - c), half = a - b, discriminant = half * half - square * a;
     unsigned count = 0;
-    if (!(discriminant > 0.0)) {
+    bool is_steady = (a > 0.0 && b > 0.0 && c > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0);
+    if (is_steady || !(discriminant > 0.0)) {
         return 0;
     }
     double q = half + copysign(sqrt(discriminant), half), roots[2] = {q / square, a / q};
@@ -65,21 +66,34 @@ static unsigned cubic_extrema(const double f[4], double at[2])
     return count;
 }
 
+// Where the coefficients' own line is first 0, of those that change their sign.
+static double polygon_root(const double f[4])
+{
+    bool is_below = f[0] < 0.0;
+    unsigned i = (f[1] < 0.0) != is_below ? 0 : (f[2] < 0.0) != is_below ? 1 : 2;
+    return (i + f[i] / (f[i] - f[i + 1])) / 3.0;
+}
+
 static unsigned cubic_roots(const double f[4], double roots[ROOTS_MOST])
 {
-    bool is_below = f[0] < 0.0, is_below_end = f[3] < 0.0;
-    if (is_below == is_below_end && (f[1] < 0.0) == is_below && (f[2] < 0.0) == is_below) {
+    bool is_below = f[0] < 0.0;
+    if ((f[1] < 0.0) == is_below && (f[2] < 0.0) == is_below && (f[3] < 0.0) == is_below) {
         return 0;
     }
-    double ends[4], from = 0.0;
+    double ends[4], from = 0.0, at_from = f[0];
     unsigned extrema = cubic_extrema(f, ends), count = 0;
     ends[extrema] = 1.0;
+    if (extrema == 0 && (f[0] < 0.0) != (f[3] < 0.0)) {
+        roots[0] = cubic_root(f, 0.0, 1.0, f[0], polygon_root(f));
+        return 1;
+    }
     for (unsigned i = 0; i <= extrema; i++) {
-        bool is_below_next = i == extrema ? is_below_end : cubic_at(f, ends[i]) < 0.0;
-        if (is_below != is_below_next) {
-            roots[count++] = cubic_root(f, from, ends[i], is_below);
+        double at_end = i == extrema ? f[3] : cubic_at(f, ends[i]);
+        if ((at_from < 0.0) != (at_end < 0.0)) {
+            double start = from + (ends[i] - from) * (at_from / (at_from - at_end));
+            roots[count++] = cubic_root(f, from, ends[i], at_from, start);
         }
-        is_below = is_below_next;
+        at_from = at_end;
         from = ends[i];
     }
     return count;
@@ -175,10 +189,10 @@ uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoin
         if (skips_group(list, stride, &i, is_out, line)) {
             continue;
         }
-        Piece piece = piece_of(list, stride, i);
-        if (is_beside_line(piece.box, line)) {
+        if (is_beside_line(outline_place(list, stride, i), line)) {
             continue;
         }
+        Piece piece = piece_of(list, stride, i);
         double roots[ROOTS_MOST];
         if (answer && found_so_far != OUTLINE_DOUBTFUL) {
             found_so_far = passes_end(&piece, line) ? OUTLINE_DOUBTFUL : OUTLINE_NEAR;
@@ -210,10 +224,10 @@ bool outline_holds(const Numbers *list, OutlinePoint p)
         if (skips_group(list, stride, &i, is_beside_point, &p)) {
             continue;
         }
-        Piece piece = piece_of(list, stride, i);
-        if (is_beside_point(piece.box, &p)) {
+        if (is_beside_point(outline_place(list, stride, i), &p)) {
             continue;
         }
+        Piece piece = piece_of(list, stride, i);
         if (p.u < piece.box[PIECE_LOW]) {
             is_inside = is_inside != ((piece.points[1] < p.v) != (piece.end[1] < p.v));
             continue;
@@ -364,14 +378,15 @@ static double curve_nearest(const Piece *piece, OutlinePoint p)
     const double v[4] = {q[1] - p.v, q[3] - p.v, q[5] - p.v, q[7] - p.v};
     const double ends[2] = {0.0, 1.0};
     double width = box[PIECE_HIGH] - box[PIECE_LOW], height = box[PIECE_HIGH + 1] - box[PIECE_LOW + 1];
-    double size = fmax(width, height), near = 0x1p-40 * size, roots[ROOTS_MOST], s = 0.0, least = (double)INFINITY;
+    double size = fmax(width, height), near = 0x1p-40 * size, rounding = 0x1p-48 * size;
+    double roots[ROOTS_MOST], s = 0.0, least = (double)INFINITY;
     bool is_wide = width >= height;
     nearest_of(piece, p, roots, cubic_roots(is_wide ? u : v, roots), &s, &least);
     if (!(least <= near * near)) {
         nearest_of(piece, p, ends, 2, &s, &least);
         nearest_of(piece, p, roots, cubic_roots(is_wide ? v : u, roots), &s, &least);
     }
-    for (int i = 0; i < NEAREST_STEPS; i++) { // Gauss and Newton
+    for (int i = 0; i < NEAREST_STEPS && !(least <= rounding * rounding); i++) { // Gauss and Newton
         OutlinePoint at = piece_at(piece, s), along = piece_along(piece, s);
         double square = 3.0 * (along.u * along.u + along.v * along.v);
         double next = clamped(s + ((p.u - at.u) * along.u + (p.v - at.v) * along.v) / square);
@@ -427,10 +442,11 @@ OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *
             if (skips_group(list, stride, &i, is_beside_place, &reached)) {
                 continue;
             }
-            Piece piece = piece_of(list, stride, i);
-            if (is_beside_place(piece.box, &reached) || (pass > 0 && !is_beside_place(piece.box, &own))) {
+            const double *box = outline_place(list, stride, i);
+            if (is_beside_place(box, &reached) || (pass > 0 && !is_beside_place(box, &own))) {
                 continue;
             }
+            Piece piece = piece_of(list, stride, i);
             double s = piece_nearest(&piece, p);
             OutlinePoint at = piece_at(&piece, s);
             double from = distance2(at, p);
