@@ -9,6 +9,7 @@
 
 #include <stdlib.h>
 
+#include "base/pages.h"
 #include "render/sample/sampling_batch.h"
 #include "trace/extent.h"
 
@@ -24,13 +25,21 @@ typedef struct Candidate {
     uint32_t place; // of extent_get
 } Candidate;
 
+// The nearest outlines that cross a pixel.
+typedef struct Crossed {
+    int count;
+    Candidate candidates[OUTLINES_ROUGH];
+} Crossed;
+
 typedef struct Builder {
     const Prepared *prepared;
     const Film *film;
     OutlineView view;
-    float *cover;          // of each pixel: the least distance of what covers it all
-    uint8_t *counts;       // of each pixel's candidates
-    Candidate *candidates; // OUTLINES_ROUGH a pixel
+    float *cover;     // of each pixel: the least distance of what covers it all
+    uint32_t *first;  // of each pixel: 0, or one more than where in `crossed` it is; then as Share has it
+    Crossed *crossed; // of pixels that some outline crosses
+    uint32_t crossed_count;
+    size_t crossed_capacity;
     Share *share;
     uint32_t used; // strata
 } Builder;
@@ -42,25 +51,51 @@ static bool is_nearer(Candidate a, Candidate b)
     return a.distance < b.distance || (a.distance == b.distance && a.place < b.place);
 }
 
-// Keeps the nearest ones.
-static void candidate_add(Builder *builder, size_t pixel, Candidate candidate)
+// The pixel's, which is made if it has none; NULL when out of memory.
+static Crossed *crossed_of(Builder *builder, size_t pixel)
 {
-    Candidate *list = &builder->candidates[pixel * OUTLINES_ROUGH];
-    int i = builder->counts[pixel];
+    if (builder->first[pixel] == 0) {
+        if (builder->crossed_count == builder->crossed_capacity) {
+            size_t capacity = 2 * builder->crossed_capacity + 1024;
+            Crossed *crossed =
+                pages_grow(builder->crossed, builder->crossed_capacity * sizeof *crossed, capacity * sizeof *crossed);
+            if (!crossed) {
+                return NULL;
+            }
+            builder->crossed = crossed;
+            builder->crossed_capacity = capacity;
+        }
+        builder->crossed[builder->crossed_count++].count = 0;
+        builder->first[pixel] = builder->crossed_count;
+    }
+    return &builder->crossed[builder->first[pixel] - 1];
+}
+
+// Keeps the nearest ones; false when out of memory.
+static bool candidate_add(Builder *builder, size_t pixel, Candidate candidate)
+{
+    Crossed *crossed = crossed_of(builder, pixel);
+    if (!crossed) {
+        return false;
+    }
+    Candidate *list = crossed->candidates;
+    int i = crossed->count;
     if (i == OUTLINES_ROUGH) {
         if (!is_nearer(candidate, list[--i])) {
-            return;
+            return true;
         }
     } else {
-        builder->counts[pixel]++;
+        crossed->count++;
     }
     for (; i > 0 && is_nearer(candidate, list[i - 1]); i--) {
         list[i] = list[i - 1];
     }
     list[i] = candidate;
+    return true;
 }
 
-static void outline_put(Builder *builder, const Outline *outline, Candidate candidate)
+// False when out of memory.
+static bool outline_put(Builder *builder, const Outline *outline, Candidate candidate)
 {
     const Film *film = builder->film;
     double height = outline_half_height(outline);
@@ -76,20 +111,21 @@ static void outline_put(Builder *builder, const Outline *outline, Candidate cand
             double x = column + film->left;
             if (x - 0.5 >= columns.inner_left && x + 0.5 <= columns.inner_right) {
                 builder->cover[pixel] = fminf(builder->cover[pixel], candidate.distance);
-            } else {
-                candidate_add(builder, pixel, candidate);
+            } else if (!candidate_add(builder, pixel, candidate)) {
+                return false;
             }
         }
     }
+    return true;
 }
 
 static bool builder_begin(Builder *builder)
 {
     size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
-    builder->cover = malloc(pixels * sizeof *builder->cover);
-    builder->counts = calloc(pixels, sizeof *builder->counts);
-    builder->candidates = malloc(pixels * OUTLINES_ROUGH * sizeof *builder->candidates);
-    if (!builder->cover || !builder->counts || !builder->candidates) {
+    builder->cover = pages_grow(NULL, 0, pixels * sizeof *builder->cover);
+    builder->first = calloc(pixels + 1, sizeof *builder->first);
+    pages_prefer_huge(builder->first, pixels * sizeof *builder->first);
+    if (!builder->cover || !builder->first) {
         return false;
     }
     for (size_t i = 0; i < pixels; i++) {
@@ -106,7 +142,7 @@ static bool sphere_outline(const Builder *builder, uint32_t place, Outline *outl
            outline_of(&builder->view, extent.centre, extent.axes[0].x * extent.axes[0].x, outline, distance);
 }
 
-// False when out of memory; leaves counts as NULL where there are no outlines.
+// False when out of memory; leaves `first` as NULL where there are no outlines.
 static bool builder_put_all(Builder *builder)
 {
     uint32_t places = extent_count(builder->prepared->geometry);
@@ -114,10 +150,10 @@ static bool builder_put_all(Builder *builder)
         Outline outline;
         double distance;
         if (sphere_outline(builder, place, &outline, &distance)) {
-            if (!builder->counts && !builder_begin(builder)) {
+            if ((!builder->first && !builder_begin(builder)) ||
+                !outline_put(builder, &outline, (Candidate){(float)distance, place})) {
                 return false;
             }
-            outline_put(builder, &outline, (Candidate){(float)distance, place});
         }
     }
     return true;
@@ -153,7 +189,7 @@ static bool strata_add(Builder *builder, const Outline *outlines, int count, con
     Share *share = builder->share;
     if (builder->used + (size_t)STRATA_MOST > share->capacity) {
         size_t capacity = 2 * share->capacity + 64 * STRATA_MOST;
-        ShareStratum *strata = realloc(share->strata, capacity * sizeof *strata);
+        ShareStratum *strata = pages_grow(share->strata, builder->used * sizeof *strata, capacity * sizeof *strata);
         if (!strata) {
             return false;
         }
@@ -167,7 +203,7 @@ static bool strata_add(Builder *builder, const Outline *outlines, int count, con
     return true;
 }
 
-static bool pixel_take(Builder *builder, size_t pixel)
+static bool pixel_take(Builder *builder, size_t pixel, const Crossed *crossed)
 {
     const Film *film = builder->film;
     double x = film->left + (double)(pixel % (size_t)film->width),
@@ -175,8 +211,8 @@ static bool pixel_take(Builder *builder, size_t pixel)
     double areas[OUTLINES_MOST + 1], distance;
     Outline outlines[OUTLINES_ROUGH];
     int count = 0;
-    for (int i = 0; i < builder->counts[pixel]; i++) {
-        Candidate candidate = builder->candidates[pixel * OUTLINES_ROUGH + (size_t)i];
+    for (int i = 0; i < crossed->count; i++) {
+        Candidate candidate = crossed->candidates[i];
         if (candidate.distance < builder->cover[pixel] &&
             sphere_outline(builder, candidate.place, &outlines[count], &distance)) {
             outlines[count].x -= x;
@@ -192,23 +228,29 @@ static bool pixel_take(Builder *builder, size_t pixel)
 static bool builder_take_all(Builder *builder)
 {
     size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
-    builder->share->first = malloc((pixels + 1) * sizeof *builder->share->first);
-    builder->share->contrasts = calloc(pixels, sizeof *builder->share->contrasts);
-    bool has_memory = builder->share->first && builder->share->contrasts;
+    Share *share = builder->share;
+    uint32_t *first = builder->first;
+    share->pixels = malloc((builder->crossed_count + 1) * sizeof *share->pixels);
+    bool has_memory = share->pixels;
     for (size_t pixel = 0; has_memory && pixel < pixels; pixel++) {
-        builder->share->first[pixel] = builder->used;
-        has_memory = builder->counts[pixel] == 0 || pixel_take(builder, pixel);
+        const Crossed *crossed = first[pixel] > 0 ? &builder->crossed[first[pixel] - 1] : NULL;
+        first[pixel] = builder->used;
+        has_memory = !crossed || pixel_take(builder, pixel, crossed);
+        if (builder->used > first[pixel]) {
+            share->pixels[share->pixel_count++] = (uint32_t)pixel;
+        }
     }
-    if (has_memory) {
-        builder->share->first[pixels] = builder->used;
-    }
-    return has_memory;
+    first[pixels] = builder->used;
+    share->contrasts = has_memory ? calloc(builder->used + 1, sizeof *share->contrasts) : NULL;
+    pages_prefer_huge(share->contrasts, builder->used * sizeof *share->contrasts);
+    return share->contrasts;
 }
 
 void share_free(Share *share)
 {
     if (share) {
         free(share->first);
+        free(share->pixels);
         free(share->contrasts);
         free(share->strata);
         free(share);
@@ -222,17 +264,18 @@ Share *share_new(const Prepared *prepared, const Film *film, bool *has_memory)
                     outline_view_init(&builder.view, &prepared->camera, film->whole_width, film->whole_height) &&
                     (uint64_t)film->width * (uint64_t)film->height < UINT32_MAX / STRATA_MOST;
     *has_memory = !is_known || builder_put_all(&builder);
-    if (is_known && *has_memory && builder.counts) {
+    if (is_known && *has_memory && builder.first) {
         builder.share = calloc(1, sizeof *builder.share);
         *has_memory = builder.share && builder_take_all(&builder);
     }
     free(builder.cover);
-    free(builder.counts);
-    free(builder.candidates);
+    free(builder.crossed);
     if (!*has_memory || builder.used == 0) {
+        free(builder.first);
         share_free(builder.share);
         return NULL;
     }
+    builder.share->first = builder.first;
     return builder.share;
 }
 
@@ -240,9 +283,9 @@ uint64_t share_bytes(int width, int height, uint64_t shapes)
 {
     enum { STRATA_EACH = 2 }; // of a pixel, more than most have
     uint64_t pixels = (uint64_t)width * (uint64_t)height, most = 4 * shapes * ((uint64_t)width + (uint64_t)height);
-    uint64_t pixel = sizeof(float) + sizeof(uint8_t) + OUTLINES_ROUGH * sizeof(Candidate) + sizeof(uint32_t) +
-                     sizeof(ShareContrast);
-    return pixels * pixel + (most < pixels ? most : pixels) * STRATA_EACH * sizeof(ShareStratum);
+    uint64_t crossed =
+        sizeof(Crossed) + sizeof(uint32_t) + STRATA_EACH * (sizeof(ShareStratum) + sizeof(ShareContrast));
+    return pixels * (sizeof(float) + sizeof(uint32_t)) + (most < pixels ? most : pixels) * crossed;
 }
 
 // ---- sums
@@ -485,10 +528,12 @@ static double contrast_around(const Round *round, int x, int y, double of_all)
     int left = x > 0 ? x - 1 : x, right = x + 1 < film->width ? x + 1 : x;
     double square = 0.0, weight = 0.0;
     for (int row = y > 0 ? y - 1 : y; row <= y + 1 && row < film->height; row++) {
-        const ShareContrast *contrasts = &round->share->contrasts[(size_t)row * (size_t)film->width];
+        const uint32_t *first = &round->share->first[(size_t)row * (size_t)film->width];
         for (int column = left; column <= right; column++) {
-            square += (double)contrasts[column].square;
-            weight += (double)contrasts[column].weight;
+            if (first[column + 1] > first[column]) {
+                square += (double)round->share->contrasts[first[column]].square;
+                weight += (double)round->share->contrasts[first[column]].weight;
+            }
         }
     }
     return weight > 0.0 ? square / weight : of_all;
@@ -507,61 +552,32 @@ static inline void contrast_renew(const Round *round, size_t pixel, ShareContras
     }
 }
 
-typedef struct ContrastSums {
-    double square, weight;
-} ContrastSums;
-
-static void contrasts_add(const Round *round, Tile block, ContrastSums *sums)
+// Whether a pixel is one of those that tell of the error.
+static inline bool counts_for_error(const Round *round, size_t pixel)
 {
-    for (int y = block.top; y < block.bottom; y++) {
-        for (int x = block.left; x < block.right; x++) {
-            size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
-            if (share_has(round->share, pixel)) {
-                ShareContrast *contrast = &round->share->contrasts[pixel];
-                contrast_renew(round, pixel, contrast);
-                sums->square += (double)contrast->square;
-                sums->weight += (double)contrast->weight;
-            }
-        }
-    }
-}
-
-static void contrasts_spread(const Round *round, Tile block, ContrastSums *sums)
-{
-    double of_all = sums->weight > 0.0 ? sums->square / sums->weight : 0.0;
-    for (int y = block.top; y < block.bottom; y++) {
-        for (int x = block.left; x < block.right; x++) {
-            size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
-            if (round->share->contrasts[pixel].sliver > 0.0f) {
-                round->share->contrasts[pixel].around = (float)contrast_around(round, x, y, of_all);
-            }
-        }
-    }
-}
-
-// Of the pixels that tell of the error.
-static void contrasts_each(const Round *round, ContrastSums *sums,
-                           void (*block)(const Round *round, Tile block, ContrastSums *sums))
-{
-    const Film *film = round->film;
-    if (!round->counts_some) {
-        block(round, (Tile){0, 0, film->width, film->height}, sums);
-        return;
-    }
-    for (int top = 0, bottom; top < film->height; top = bottom) {
-        bottom = round_block_end(top, film->top, film->height);
-        for (int left = 0, right; left < film->width; left = right) {
-            right = round_block_end(left, film->left, film->width);
-            if (round_counts_for_error(round, left, top)) {
-                block(round, (Tile){left, top, right, bottom}, sums);
-            }
-        }
-    }
+    size_t width = (size_t)round->film->width;
+    return !round->counts_some || round_counts_for_error(round, (int)(pixel % width), (int)(pixel / width));
 }
 
 void share_set_contrasts(const Round *round)
 {
-    ContrastSums sums = {0.0, 0.0};
-    contrasts_each(round, &sums, contrasts_add);
-    contrasts_each(round, &sums, contrasts_spread);
+    const Share *share = round->share;
+    double square = 0.0, weight = 0.0;
+    for (uint32_t i = 0; i < share->pixel_count; i++) {
+        size_t pixel = share->pixels[i];
+        if (counts_for_error(round, pixel)) {
+            ShareContrast *contrast = &share->contrasts[share->first[pixel]];
+            contrast_renew(round, pixel, contrast);
+            square += (double)contrast->square;
+            weight += (double)contrast->weight;
+        }
+    }
+    double of_all = weight > 0.0 ? square / weight : 0.0;
+    for (uint32_t i = 0; i < share->pixel_count; i++) {
+        size_t pixel = share->pixels[i], width = (size_t)round->film->width;
+        ShareContrast *contrast = &share->contrasts[share->first[pixel]];
+        if (contrast->sliver > 0.0f) {
+            contrast->around = (float)contrast_around(round, (int)(pixel % width), (int)(pixel / width), of_all);
+        }
+    }
 }

@@ -36,9 +36,11 @@ typedef struct ShareContrast {
 // What is known of a film.
 typedef struct Share {
     uint32_t *first; // of each pixel's strata; one more for the end
+    uint32_t *pixels; // that have any, from the first on
+    uint32_t pixel_count;
     ShareStratum *strata;
     size_t capacity;
-    ShareContrast *contrasts; // of each pixel; 0 before share_set_contrasts
+    ShareContrast *contrasts; // of each pixel that has strata, where its first is; 0 before share_set_contrasts
 } Share;
 
 // New samples of a pixel: its first and second half.
@@ -86,10 +88,10 @@ typedef struct ShareMeans {
 } ShareMeans;
 
 // The variance of the mean of a pixel's samples, of which there are `count`, that strata bring which are too small to
-// be weighted by their shares: as share_set_contrasts knows it.
+// be weighted by their shares: as share_set_contrasts knows it. The pixel has strata.
 static inline double share_variance(const Share *share, size_t pixel, double count)
 {
-    const ShareContrast *contrast = &share->contrasts[pixel];
+    const ShareContrast *contrast = &share->contrasts[share->first[pixel]];
     return contrast->sliver > 0.0f ? (double)contrast->around * (double)contrast->sliver / count : 0.0;
 }
 
