@@ -6,6 +6,8 @@
 // operations in the same order, and so the same bits. That is why this has no guard of its own.
 //
 // SPDX-License-Identifier: MIT
+#include <stdbool.h>
+
 #include "base/attributes.h"
 
 #undef LANE
@@ -13,8 +15,17 @@
 #undef LANE_OF
 #undef LANE_GE
 #undef LANE_NOT
-#define LANE            double
-#define LANES(one, some) one
-#define LANE_OF(a)      (a)
-#define LANE_GE(a, b)   ((a) >= (b))
-#define LANE_NOT(flags) (!(flags))
+#undef LANE_MASK
+#undef LANE_CHOOSE
+#undef LANE_MIN
+#undef LANE_MAX
+#define LANE                    double
+#define LANE_MASK               bool
+#define LANES(one, some)        one
+#define LANE_OF(a)              (a)
+#define LANE_GE(a, b)           ((a) >= (b))
+#define LANE_NOT(flags)         (!(flags))
+#define LANE_CHOOSE(mask, a, b) ((mask) ? (a) : (b))
+// No number is NaN.
+#define LANE_MIN(a, b) ((a) < (b) ? (a) : (b))
+#define LANE_MAX(a, b) ((a) > (b) ? (a) : (b))

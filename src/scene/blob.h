@@ -23,8 +23,8 @@ typedef struct BlobComponent {
 } BlobComponent;
 
 // Some components that follow each other, and the box of where they have a field. The children of a node of more than
-// BLOB_LEAF of them are the next one, of the first half, and the one numbered `second`.
-enum { BLOB_LEAF = 4 };
+// BLOB_LEAF of them are the next one, of the first half, and the one numbered `second`; so deep at most.
+enum { BLOB_LEAF = 4, BLOB_NODES_DEEP = 64 };
 typedef struct BlobNode {
     double low[3], high[3];
     double begin, end, second, unused;

@@ -15,7 +15,10 @@
 #include "scene/blob.h"
 #include "trace/roots.h"
 
-enum { FIRST_FEW = 2, NODES_DEEP = 64, DEGREE = 4 };
+#include "math/lane_double.h"
+#include "trace/blob_walk.inc"
+
+enum { FIRST_FEW = 2, DEGREE = 4 };
 
 // A root is as good as the rest of a crossing if it is off by so many u of all that makes its place.
 static const double GOOD_ROOT = 0x1p-44;
@@ -99,21 +102,6 @@ static void add_component(Line *line, const BlobComponent *component)
     }
 }
 
-// Boxes are a little wider than all that rounds here, but for what is far away: the margin is for that.
-static bool node_is_near(const BlobNode *node, const Ray *ray, const double inverse[3], double margin)
-{
-    const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
-    double in = 0.0, out = (double)INFINITY;
-    for (int axis = 0; axis < 3; axis++) { // no number here is NaN
-        double first = (node->low[axis] - margin - o[axis]) * inverse[axis];
-        double second = (node->high[axis] + margin - o[axis]) * inverse[axis];
-        double near = first < second ? first : second, far = first < second ? second : first;
-        in = in > near ? in : near;
-        out = out < far ? out : far;
-    }
-    return in <= out * (1.0 + 0x1p-48);
-}
-
 static int stretch_order(const Stretch *x, const Stretch *y)
 {
     int by_place = (x->from > y->from) - (x->from < y->from);
@@ -147,25 +135,12 @@ static void sort_stretches(Line *line)
 
 static void find_stretches(Line *line, const Blob *blob)
 {
-    uint32_t waiting[NODES_DEEP], count = 1;
-    const Ray *ray = line->ray;
-    double inverse[3] = {1.0 / copysign(greater_of(fabs(ray->direction.x), 0x1p-900), ray->direction.x),
-                         1.0 / copysign(greater_of(fabs(ray->direction.y), 0x1p-900), ray->direction.y),
-                         1.0 / copysign(greater_of(fabs(ray->direction.z), 0x1p-900), ray->direction.z)};
-    double margin = 0x1p-44 * vec3_max_abs(ray->origin);
+    const Vec3 o = line->ray->origin, d = line->ray->direction;
+    const double origin[3] = {o.x, o.y, o.z}, direction[3] = {d.x, d.y, d.z};
+    BlobWalk walk; // not cleared
     line->count = 0;
-    waiting[0] = 0;
-    while (count > 0) {
-        uint32_t at = waiting[--count];
-        const BlobNode *node = &blob->nodes[at];
-        if (!node_is_near(node, ray, inverse, margin)) {
-            continue;
-        }
-        if (node->end - node->begin > BLOB_LEAF) {
-            waiting[count++] = (uint32_t)node->second;
-            waiting[count++] = at + 1;
-            continue;
-        }
+    blob_walk_start(&walk, blob, origin, direction);
+    for (const BlobNode *node; (node = blob_walk_next(&walk, 1)) != NULL;) {
         for (uint32_t i = (uint32_t)node->begin; i < (uint32_t)node->end; i++) {
             add_component(line, &blob->components[i]);
         }
@@ -461,7 +436,7 @@ unsigned blob_intervals(const double *list, bool is_first, const Ray *ray, SideL
 Vec3 blob_normal(const double *list, Vec3 point)
 {
     Blob blob = blob_of(list);
-    uint32_t waiting[NODES_DEEP], count = 1;
+    uint32_t waiting[BLOB_NODES_DEEP], count = 1;
     const double p[3] = {point.x, point.y, point.z};
     double n[3] = {0.0, 0.0, 0.0};
     waiting[0] = 0;

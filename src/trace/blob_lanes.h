@@ -13,7 +13,10 @@
 #include "scene/blob.h"
 #include "trace/line_lanes.h"
 
-enum { BLOB_NEAR_MOST = 20, BLOB_STEPS_MOST = 24, BLOB_NODES_DEEP = 64 };
+#include "trace/lane_doubles.h"
+#include "trace/blob_walk.inc"
+
+enum { BLOB_NEAR_MOST = 20, BLOB_STEPS_MOST = 24 };
 
 // What some lines are in the space of a component: its field is strength (1 - d²)² between `enter` and `leave`, with
 // 1 - d² = depth - square (t - middle)², less the square of how far the line is beyond an end of a rod along it.
@@ -35,21 +38,6 @@ typedef struct BlobLanes {
 } BlobLanes;
 
 // ---- the components that are near
-
-// Bit i is set where a line comes near a box; as in blob.c, with a wider margin.
-RT_ALWAYS_INLINE unsigned blob_lanes_node(const BlobNode *node, const Doubles f[3], const Doubles inverse[3],
-                                          Doubles margin)
-{
-    Doubles in = doubles_splat(0.0), out = doubles_splat((double)INFINITY);
-#pragma GCC unroll 3
-    for (int axis = 0; axis < 3; axis++) {
-        Doubles first = (node->low[axis] - margin - f[axis]) * inverse[axis];
-        Doubles second = (node->high[axis] + margin - f[axis]) * inverse[axis];
-        in = doubles_max(in, doubles_min(first, second));
-        out = doubles_min(out, doubles_max(first, second));
-    }
-    return doubles_ge(out * (1.0 + 0x1p-40), in);
-}
 
 // Takes what of the lines is within 1 of a place on a rod's axis into what is near the rod.
 RT_ALWAYS_INLINE void blob_lanes_end(BlobNear *near, const Doubles o[3], const Doubles d[3], double height,
@@ -149,23 +137,9 @@ RT_ALWAYS_INLINE bool blob_lanes_add(const BlobComponent *component, const Doubl
 RT_ALWAYS_INLINE bool blob_lanes_gather(const Blob *own, const Doubles f[3], const Doubles d[3], unsigned asked,
                                         BlobLanes *blob)
 {
-    uint32_t waiting[BLOB_NODES_DEEP], count = 1;
-    Doubles inverse[3], far = doubles_max(doubles_max(doubles_abs(f[0]), doubles_abs(f[1])), doubles_abs(f[2]));
-    for (int axis = 0; axis < 3; axis++) {
-        inverse[axis] = 1.0 / doubles_choose(doubles_abs(d[axis]) > 0x1p-400, d[axis], doubles_splat(0x1p-400));
-    }
-    waiting[0] = 0;
-    while (count > 0) {
-        uint32_t at = waiting[--count];
-        const BlobNode *node = &own->nodes[at];
-        if (!(asked & blob_lanes_node(node, f, inverse, 0x1p-40 * far))) {
-            continue;
-        }
-        if (node->end - node->begin > BLOB_LEAF) {
-            waiting[count++] = (uint32_t)node->second;
-            waiting[count++] = at + 1;
-            continue;
-        }
+    BlobWalks walk; // not cleared
+    blob_walks_start(&walk, own, f, d);
+    for (const BlobNode *node; (node = blob_walks_next(&walk, asked)) != NULL;) {
         for (uint32_t i = (uint32_t)node->begin; i < (uint32_t)node->end; i++) {
             if (blob->count == BLOB_NEAR_MOST) {
                 return false;

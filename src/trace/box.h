@@ -21,9 +21,9 @@ RT_ALWAYS_INLINE bool box_interval(Vec3 low, Vec3 high, Vec3 o, Vec3 d, uint8_t 
     if (left_side < 6 && is_flat_across(low, high, left_side / 2)) {
         return false; // its two faces are one, which the ray has left
     }
-    if (!interval_slab(o.x, d.x, low.x, high.x, 0, left_side, interval) ||
-        !interval_slab(o.y, d.y, low.y, high.y, 2, left_side, &y) ||
-        !interval_slab(o.z, d.z, low.z, high.z, 4, left_side, &z)) {
+    if (!interval_slab(o.x, d.x, (Slab){low.x, high.x, 0}, left_side, interval) ||
+        !interval_slab(o.y, d.y, (Slab){low.y, high.y, 2}, left_side, &y) ||
+        !interval_slab(o.z, d.z, (Slab){low.z, high.z, 4}, left_side, &z)) {
         return false;
     }
     interval_meet(interval, &y);
@@ -42,9 +42,15 @@ RT_ALWAYS_INLINE Vec3 box_point(Vec3 low, Vec3 high, Vec3 point, uint8_t side)
 {
     Vec3 bound = side & 1 ? high : low;
     switch (side / 2) {
-    case 0: point.x = bound.x; break;
-    case 1: point.y = bound.y; break;
-    default: point.z = bound.z; break;
+    case 0:
+        point.x = bound.x;
+        break;
+    case 1:
+        point.y = bound.y;
+        break;
+    default:
+        point.z = bound.z;
+        break;
     }
     return point;
 }

@@ -16,8 +16,7 @@ enum { CONE_ROUND, CONE_BASE, CONE_CAP };
 #include "math/lane_double.h"
 #include "trace/cone.inc"
 
-// The line inside the round side, on the tip's own side only where the discs' planes decide. A line steeper than the
-// side (a < 0) is inside of both images in turn and never leaves the one that widens.
+// The line inside the round side, on the tip's own side only where the discs' planes decide.
 RT_ALWAYS_INLINE bool cone_round_interval(const ConeRoots *r, RayInterval *interval)
 {
     *interval = (RayInterval){-(double)INFINITY, (double)INFINITY, CONE_ROUND, CONE_ROUND};
@@ -28,17 +27,11 @@ RT_ALWAYS_INLINE bool cone_round_interval(const ConeRoots *r, RayInterval *inter
     if (!(r->discriminant >= 0.0) && !(r->a < 0.0)) {
         return false;
     }
-    double sum = -(r->b + copysign(sqrt(greater_of(r->discriminant, 0.0)), r->b)); // terms of one sign
-    double first = sum / r->a, second = r->c / sum;
-    if (r->a > 0.0) {
-        interval->enter = less_of(first, second);
-        interval->leave = greater_of(first, second);
-    } else if (r->a == 0.0) {
-        *(r->b < 0.0 ? &interval->enter : &interval->leave) = second;
-    } else if (r->q > 0.0) {
-        interval->enter = greater_of(first, second);
+    double sum = cone_sum(r, sqrt(greater_of(r->discriminant, 0.0)));
+    if (r->a == 0.0) {
+        *(r->b < 0.0 ? &interval->enter : &interval->leave) = r->c / sum;
     } else {
-        interval->leave = less_of(first, second);
+        *interval = cone_round(r, sum);
     }
     return !isnan(interval->enter) && !isnan(interval->leave);
 }
@@ -59,7 +52,7 @@ RT_ALWAYS_INLINE bool cone_interval(double ratio, Vec3 o, Vec3 d, uint8_t left_s
     ConeRoots roots = cone_roots(ratio, o, d);
     if (!(left_side == CONE_ROUND ? cone_round_interval_inward(&roots, interval)
                                   : cone_round_interval(&roots, interval)) ||
-        !interval_slab(o.z, d.z, 0.0, 1.0, CONE_BASE, left_side, &slab)) {
+        !interval_slab(o.z, d.z, (Slab){0.0, 1.0, CONE_BASE}, left_side, &slab)) {
         return false;
     }
     interval_meet(interval, &slab);

@@ -6,33 +6,9 @@
 #ifndef TRACE_FLAT_H
 #define TRACE_FLAT_H
 
-#include <math.h>
-#include <stdbool.h>
-
-#include "base/attributes.h"
 #include "math/vec3.h"
 
-// Where the line crosses z = 0, and where in x and y. False when it runs along.
-RT_ALWAYS_INLINE bool flat_root(Vec3 o, Vec3 d, double *t, double *x, double *y)
-{
-    if (d.z == 0.0) {
-        return false;
-    }
-    *t = -o.z / d.z;
-    *x = o.x + *t * d.x;
-    *y = o.y + *t * d.y;
-    return true;
-}
-
-RT_ALWAYS_INLINE bool disc_has(double hole, double x, double y)
-{
-    double square = x * x + y * y;
-    return square <= 1.0 && square >= hole * hole;
-}
-
-RT_ALWAYS_INLINE bool triangle_has(double x, double y)
-{
-    return x >= 0.0 && y >= 0.0 && x + y <= 1.0;
-}
+#include "math/lane_double.h"
+#include "trace/flat.inc"
 
 #endif

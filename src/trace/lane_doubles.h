@@ -10,8 +10,16 @@
 #undef LANE_OF
 #undef LANE_GE
 #undef LANE_NOT
-#define LANE            Doubles
-#define LANES(one, some) some
-#define LANE_OF(a)      doubles_splat(a)
-#define LANE_GE(a, b)   doubles_ge(a, b)
-#define LANE_NOT(flags) (~(flags))
+#undef LANE_MASK
+#undef LANE_CHOOSE
+#undef LANE_MIN
+#undef LANE_MAX
+#define LANE                    Doubles
+#define LANE_MASK               DoublesMask
+#define LANES(one, some)        some
+#define LANE_OF(a)              doubles_splat(a)
+#define LANE_GE(a, b)           doubles_ge(a, b)
+#define LANE_NOT(flags)         (~(flags))
+#define LANE_CHOOSE(mask, a, b) ((__typeof__(a))(((mask) & (DoublesMask)(a)) | (~(mask) & (DoublesMask)(b))))
+#define LANE_MIN(a, b)          doubles_min(a, b)
+#define LANE_MAX(a, b)          doubles_max(a, b)

@@ -182,15 +182,17 @@ static void cone_axes(const PreparedPrimitive *primitive, Vec3 axes[3], Vec3 *mi
 
 static bool disc_root(const PreparedPrimitive *primitive, const Ray *object, double *t)
 {
-    double x, y;
-    return flat_root(object->origin, object->direction, t, &x, &y) && disc_has(primitive->data[0].x, x, y);
+    FlatPlace at = flat_place(object->origin, object->direction);
+    *t = at.t;
+    return disc_has(primitive->data[0].x, &at);
 }
 
 static bool triangle_root(const PreparedPrimitive *primitive, const Ray *object, double *t)
 {
-    double x, y;
     (void)primitive;
-    return flat_root(object->origin, object->direction, t, &x, &y) && triangle_has(x, y);
+    FlatPlace at = flat_place(object->origin, object->direction);
+    *t = at.t;
+    return triangle_has(&at);
 }
 
 static Vec3 flat_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side)
@@ -333,9 +335,9 @@ static Vec3 prism_side_point(const PreparedPrimitive *primitive, Vec3 point, uin
 
 static bool polygon_root(const PreparedPrimitive *primitive, const Ray *object, double *t)
 {
-    double x, y;
-    return flat_root(object->origin, object->direction, t, &x, &y) &&
-           outline_holds(&primitive->list, (OutlinePoint){x, y});
+    FlatPlace at = flat_place(object->origin, object->direction);
+    *t = at.t;
+    return object->direction.z != 0.0 && outline_holds(&primitive->list, (OutlinePoint){at.x, at.y});
 }
 
 // ---- lathe and surface of revolution

@@ -1,9 +1,9 @@
 // Some rays against a primitive of a kind that has a test in lanes, in the primitive's own space: part of
 // spheres_kernel.c.
 //
-// Roots are those of single rays, bit for bit: by the same text (trace/sphere.inc, trace/cone.inc) or, where a single
-// ray branches, by the same operations in their order (box_interval, cone_interval and flat_root). Whatever takes a way
-// that ordinary rays do not take (along a face, grazing, through a tip) is not certain: it is asked by itself.
+// Roots are those of single rays, bit for bit, by the same text (trace/sphere.inc, cone.inc, flat.inc, interval.inc).
+// Whatever takes a way that ordinary rays do not take (along a face, grazing, through a tip) is not certain: it is
+// asked by itself.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_PRIMITIVE_LANES_H
@@ -13,14 +13,23 @@
 
 #include "trace/cone.h"
 #include "trace/curve_lanes.h"
+#include "trace/flat.h"
 #include "trace/prism.h"
 #include "trace/prism_lanes.h"
 #include "trace/shapes.h"
 #include "trace/simd.h"
 #include "trace/sphere_rays.h"
 
+// As RayInterval.
+typedef struct IntervalLanes {
+    Doubles enter, leave;
+    DoublesMask enter_side, leave_side;
+} IntervalLanes;
+
 #include "trace/lane_doubles.h"
 #include "trace/cone.inc"
+#include "trace/flat.inc"
+#include "trace/interval.inc"
 
 // ---- errors
 
@@ -130,44 +139,16 @@ RT_ALWAYS_INLINE bool ball_lanes(const LanePrimitive *own, const RayLanes *rays,
     return true;
 }
 
-// Ends of an interval, the sides there, and how large n·d is there. As RayInterval.
-typedef struct IntervalLanes {
-    Doubles enter, leave, enter_along, leave_along;
-    DoublesMask enter_side, leave_side;
-} IntervalLanes;
-
-RT_ALWAYS_INLINE DoublesMask sides_choose(DoublesMask mask, DoublesMask a, DoublesMask b)
+// What lies between two bounds as interval_slab has it. `certain` keeps the rays that do not run along a bound, in it.
+RT_ALWAYS_INLINE IntervalLanes slab_lanes(Doubles o, Doubles d, Slab ends, DoublesMask *certain)
 {
-    return (mask & a) | (~mask & b);
+    IntervalLanes slab = interval_lanes_between(o, d, ends);
+    *certain &= (slab.enter == slab.enter) & (slab.leave == slab.leave);
+    return slab;
 }
 
-// interval_slab. `certain` keeps the rays that do not run along a bound, in it.
-RT_ALWAYS_INLINE void slab_lanes(Doubles o, Doubles d, double low, double high, int64_t low_side, IntervalLanes *slab,
-                                 DoublesMask *certain)
-{
-    Doubles t_low = (low - o) / d, t_high = (high - o) / d; // of a line along the bounds both ends are infinite
-    DoublesMask up = (d > 0.0) | ((d == 0.0) & (t_low < t_high)), low_sides = (DoublesMask){0} + low_side;
-    *certain &= (t_low == t_low) & (t_high == t_high);
-    slab->enter = doubles_choose(up, t_low, t_high);
-    slab->leave = doubles_choose(up, t_high, t_low);
-    slab->enter_side = low_sides + (~up & 1);
-    slab->leave_side = low_sides + (up & 1);
-    slab->enter_along = slab->leave_along = doubles_abs(d);
-}
-
-// interval_meet.
-RT_ALWAYS_INLINE void interval_lanes_meet(IntervalLanes *interval, const IntervalLanes *other)
-{
-    DoublesMask later = other->enter > interval->enter, sooner = other->leave < interval->leave;
-    interval->enter = doubles_choose(later, other->enter, interval->enter);
-    interval->enter_side = sides_choose(later, other->enter_side, interval->enter_side);
-    interval->enter_along = doubles_choose(later, other->enter_along, interval->enter_along);
-    interval->leave = doubles_choose(sooner, other->leave, interval->leave);
-    interval->leave_side = sides_choose(sooner, other->leave_side, interval->leave_side);
-    interval->leave_along = doubles_choose(sooner, other->leave_along, interval->leave_along);
-}
-
-// What convex_closest offers of an interval: its first end that is ahead and has a surface. False: no ray has any.
+// What convex_closest offers of an interval: its first end that is ahead and has a surface. The bound is for crossings
+// without errors. False: no ray has any.
 RT_ALWAYS_INLINE bool interval_lanes_first(const LanePrimitive *own, const IntervalLanes *interval, unsigned asked,
                                            PrimitiveLanes *lanes)
 {
@@ -179,63 +160,67 @@ RT_ALWAYS_INLINE bool interval_lanes_first(const LanePrimitive *own, const Inter
     lanes->possible = asked & (ahead | ~lanes->certain);
     lanes->leaves = ~doubles_mask_bits(enters);
     lanes->root = doubles_choose(enters, interval->enter, interval->leave);
-    lanes->side = sides_choose(enters, interval->enter_side, interval->leave_side);
-    Doubles along = doubles_choose(enters, interval->enter_along, interval->leave_along);
-    Doubles error = (own->slack.fixed + own->slack.slope * lanes->root) / along;
-    lanes->bound = doubles_min(interval->leave - interval->enter, error);
+    lanes->side = (enters & interval->enter_side) | (~enters & interval->leave_side);
+    lanes->bound = interval->leave - interval->enter;
     return lanes->possible;
+}
+
+// How far a crossing may be off, for n·d of that size.
+RT_ALWAYS_INLINE Doubles lane_error(const LanePrimitive *own, Doubles root, Doubles along)
+{
+    return (own->slack.fixed + own->slack.slope * root) / along;
 }
 
 RT_ALWAYS_INLINE bool box_lanes(const LanePrimitive *own, const RayLanes *rays, unsigned asked, PrimitiveLanes *lanes)
 {
     const Vec3 low = own->solid->data[0], high = own->solid->data[1];
     const Vec3s f = rays->f, d = rays->d;
-    IntervalLanes interval, slab;
     DoublesMask certain = ~(DoublesMask){0};
-    slab_lanes(f.x, d.x, low.x, high.x, 0, &interval, &certain);
-    slab_lanes(f.y, d.y, low.y, high.y, 2, &slab, &certain);
-    interval_lanes_meet(&interval, &slab);
-    slab_lanes(f.z, d.z, low.z, high.z, 4, &slab, &certain);
-    interval_lanes_meet(&interval, &slab);
+    IntervalLanes interval = slab_lanes(f.x, d.x, (Slab){low.x, high.x, 0}, &certain);
+    IntervalLanes y = slab_lanes(f.y, d.y, (Slab){low.y, high.y, 2}, &certain);
+    IntervalLanes z = slab_lanes(f.z, d.z, (Slab){low.z, high.z, 4}, &certain);
+    interval_lanes_meet(&interval, &y);
+    interval_lanes_meet(&interval, &z);
     lanes->certain = doubles_mask_bits(certain);
-    return interval_lanes_first(own, &interval, asked, lanes);
+    if (!interval_lanes_first(own, &interval, asked, lanes)) {
+        return false;
+    }
+    Doubles along = doubles_choose(lanes->side < 2, d.x, doubles_choose(lanes->side < 4, d.y, d.z));
+    lanes->bound = doubles_min(lanes->bound, lane_error(own, lanes->root, doubles_abs(along)));
+    return true;
 }
 
 // cone_roots and cone_interval. Lines along the side, or next to grazing it, are not certain.
 RT_ALWAYS_INLINE bool cone_lanes(const LanePrimitive *own, const RayLanes *rays, unsigned asked, PrimitiveLanes *lanes)
 {
-    const Doubles zero = doubles_splat(0.0), far = doubles_splat((double)INFINITY);
+    const Doubles zero = doubles_splat(0.0);
     const ConesRoots r = cones_roots(own->solid->data[0].x, rays->f, rays->d);
-    const Doubles a = r.a, b = r.b;
-    if (!(asked & ~(doubles_gt(a, zero) & doubles_gt(zero, r.discriminant)))) {
+    if (!(asked & ~(doubles_gt(r.a, zero) & doubles_gt(zero, r.discriminant)))) {
         return false;
     }
-    Doubles along = doubles_sqrt(r.discriminant);
-    Doubles sum = -(b + (Doubles)((DoublesMask)along | ((DoublesMask)b & INT64_MIN)));
-    Doubles first = sum / a, second = r.c / sum;
-    DoublesMask ordered = first<second, narrows = a> 0.0, widens = ~narrows & (r.q > 0.0);
-    Doubles less = doubles_choose(ordered, first, second), greater = doubles_choose(ordered, second, first);
-    IntervalLanes interval, slab;
-    interval.enter = doubles_choose(narrows, less, doubles_choose(widens, greater, -far));
-    interval.leave = doubles_choose(narrows, greater, doubles_choose(widens, far, less));
-    interval.enter_along = interval.leave_along = along;
-    interval.enter_side = interval.leave_side = (DoublesMask){0} + CONE_ROUND;
-    DoublesMask is_clear = (r.discriminant > 0x1p-20 * r.whole) | (narrows & (r.discriminant < 0.0));
-    DoublesMask certain = is_clear & (a != zero) & (sum != zero);
-    slab_lanes(rays->f.z, rays->d.z, 0.0, 1.0, CONE_BASE, &slab, &certain);
+    Doubles root = doubles_sqrt(r.discriminant), sum = cones_sum(&r, root);
+    DoublesMask is_clear = (r.discriminant > 0x1p-20 * r.whole) | ((r.a > 0.0) & (r.discriminant < 0.0));
+    DoublesMask certain = is_clear & (r.a != zero) & (sum != zero);
+    IntervalLanes interval = cones_round(&r, sum);
+    IntervalLanes slab = slab_lanes(rays->f.z, rays->d.z, (Slab){0.0, 1.0, CONE_BASE}, &certain);
     interval_lanes_meet(&interval, &slab);
     lanes->certain = doubles_mask_bits(certain);
-    return interval_lanes_first(own, &interval, asked, lanes);
+    if (!interval_lanes_first(own, &interval, asked, lanes)) {
+        return false;
+    }
+    Doubles along = doubles_choose(lanes->side == CONE_ROUND, root, doubles_abs(rays->d.z));
+    lanes->bound = doubles_min(lanes->bound, lane_error(own, lanes->root, along));
+    return true;
 }
 
 // What prism_intervals finds first, where a ray comes in at an end of the prism.
 RT_ALWAYS_INLINE bool prism_lanes(const LanePrimitive *own, const RayLanes *rays, unsigned asked, PrimitiveLanes *lanes)
 {
     const Doubles f[3] = {rays->f.x, rays->f.y, rays->f.z}, d[3] = {rays->d.x, rays->d.y, rays->d.z};
-    IntervalLanes slab;
+    const Slab ends = {own->solid->data[0].y, own->solid->data[1].y, PRISM_LOW};
     DoublesMask certain = ~(DoublesMask){0};
     unsigned misses;
-    slab_lanes(f[1], d[1], own->solid->data[0].y, own->solid->data[1].y, PRISM_LOW, &slab, &certain);
+    IntervalLanes slab = slab_lanes(f[1], d[1], ends, &certain);
     asked &= ~doubles_mask_bits(certain & (slab.leave <= 0.0)); // all of it is behind
     certain &= (slab.enter > 0.0) & (slab.enter < slab.leave) & (slab.leave < 0x1p900);
     unsigned told = asked & doubles_mask_bits(certain);
@@ -244,7 +229,7 @@ RT_ALWAYS_INLINE bool prism_lanes(const LanePrimitive *own, const RayLanes *rays
     lanes->leaves = 0;
     lanes->root = slab.enter;
     lanes->side = slab.enter_side;
-    lanes->bound = (own->slack.fixed + own->slack.slope * slab.enter) / slab.enter_along;
+    lanes->bound = lane_error(own, slab.enter, doubles_abs(d[1]));
     return lanes->possible;
 }
 
@@ -267,29 +252,25 @@ RT_ALWAYS_INLINE unsigned smooth_lanes_leave(const LanePrimitive *own, Doubles x
     return doubles_gt(vec3s_dot(normal, world), doubles_splat(0.0));
 }
 
-// flat_root, with disc_has or triangle_has, and which side of it the ray comes from.
+// Where it is met, and which side of it the ray comes from.
 RT_ALWAYS_INLINE bool flat_lanes(const LanePrimitive *own, PrimitiveKind kind, const RayLanes *rays, unsigned asked,
                                  PrimitiveLanes *lanes)
 {
-    const Vec3s f = rays->f, d = rays->d;
-    const Doubles zero = doubles_splat(0.0);
-    const double hole = own->solid->data[0].x;
-    Doubles t = -f.z / d.z, x = f.x + t * d.x, y = f.y + t * d.y, square = x * x + y * y;
-    DoublesMask has =
-        kind == PRIMITIVE_DISC ? (square <= 1.0) & (square >= hole * hole) : (x >= 0.0) & (y >= 0.0) & (x + y <= 1.0);
-    lanes->possible = asked & doubles_mask_bits(has & (t > zero) & (d.z != zero));
+    const FlatPlaces at = flat_places(rays->f, rays->d);
+    DoublesMask has = kind == PRIMITIVE_DISC ? discs_have(own->solid->data[0].x, &at) : triangles_have(&at);
+    lanes->possible = asked & doubles_mask_bits(has & (at.t > 0.0));
     if (!lanes->possible) {
         return false;
     }
     lanes->certain = ~0u;
     if (kind == PRIMITIVE_SMOOTH_TRIANGLE) {
-        lanes->leaves = smooth_lanes_leave(own, x, y, rays->world);
+        lanes->leaves = smooth_lanes_leave(own, at.x, at.y, rays->world);
     } else {
-        lanes->leaves = doubles_gt(vec3s_dot(vec3s_splat(own->normal), rays->world), zero);
+        lanes->leaves = doubles_gt(vec3s_dot(vec3s_splat(own->normal), rays->world), doubles_splat(0.0));
     }
-    lanes->root = t;
+    lanes->root = at.t;
     lanes->side = (DoublesMask){0};
-    lanes->bound = (own->slack.fixed + own->slack.slope * t) / doubles_abs(d.z);
+    lanes->bound = lane_error(own, at.t, doubles_abs(rays->d.z));
     return true;
 }
 
@@ -307,7 +288,7 @@ RT_ALWAYS_INLINE bool curve_lanes(const LanePrimitive *own, PrimitiveKind kind, 
     lanes->leaves = 0;
     lanes->side = (DoublesMask){0};
     lanes->root = first.root;
-    lanes->bound = (own->slack.fixed + own->slack.slope * first.root) / first.along;
+    lanes->bound = lane_error(own, first.root, first.along);
     return true;
 }
 

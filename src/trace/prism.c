@@ -152,7 +152,8 @@ unsigned prism_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray 
     RayInterval slab = INTERVAL_ALL;
     unsigned count = 0;
     bool is_gone = (left.side == PRISM_LOW || left.side == PRISM_HIGH) && !left.inward; // beyond its ends
-    if (is_gone || !interval_slab(ray->origin.y, ray->direction.y, low.y, high.y, PRISM_LOW, left.side, &slab)) {
+    if (is_gone ||
+        !interval_slab(ray->origin.y, ray->direction.y, (Slab){low.y, high.y, PRISM_LOW}, left.side, &slab)) {
         return 0;
     }
     if (left.side == PRISM_WALL) { // between its ends

@@ -282,6 +282,12 @@ RT_ALWAYS_INLINE Doubles doubles_abs(Doubles a)
     return (Doubles)((DoublesMask)a & INT64_MAX);
 }
 
+// The size of a with the sign of b.
+RT_ALWAYS_INLINE Doubles doubles_copysign(Doubles a, Doubles b)
+{
+    return (Doubles)(((DoublesMask)a & INT64_MAX) | ((DoublesMask)b & INT64_MIN));
+}
+
 #if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
 // a b - c of each, with one rounding.
 RT_ALWAYS_INLINE Doubles doubles_fused(Doubles a, Doubles b, Doubles c)
