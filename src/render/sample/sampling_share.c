@@ -9,6 +9,7 @@
 
 #include <stdlib.h>
 
+#include "base/cleared.h"
 #include "render/sample/sampling_batch.h"
 #include "trace/extent.h"
 
@@ -86,8 +87,8 @@ static void outline_put(Builder *builder, const Outline *outline, Candidate cand
 static bool builder_begin(Builder *builder)
 {
     size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
-    builder->cover = malloc(pixels * sizeof *builder->cover);
-    builder->counts = calloc(pixels, sizeof *builder->counts);
+    builder->cover = cleared_new(pixels, sizeof *builder->cover);
+    builder->counts = cleared_new(pixels, sizeof *builder->counts);
     builder->candidates = malloc(pixels * OUTLINES_ROUGH * sizeof *builder->candidates);
     if (!builder->cover || !builder->counts || !builder->candidates) {
         return false;
@@ -153,7 +154,8 @@ static bool strata_add(Builder *builder, const Outline *outlines, int count, con
     Share *share = builder->share;
     if (builder->used + (size_t)STRATA_MOST > share->capacity) {
         size_t capacity = 2 * share->capacity + 64 * STRATA_MOST;
-        ShareStratum *strata = realloc(share->strata, capacity * sizeof *strata);
+        ShareStratum *strata =
+            pages_grow(share->strata, share->capacity * sizeof *strata, capacity * sizeof *strata);
         if (!strata) {
             return false;
         }
@@ -192,8 +194,8 @@ static bool pixel_take(Builder *builder, size_t pixel)
 static bool builder_take_all(Builder *builder)
 {
     size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
-    builder->share->first = malloc((pixels + 1) * sizeof *builder->share->first);
-    builder->share->contrasts = calloc(pixels, sizeof *builder->share->contrasts);
+    builder->share->first = cleared_new(pixels + 1, sizeof *builder->share->first);
+    builder->share->contrasts = cleared_new(pixels, sizeof *builder->share->contrasts);
     bool has_memory = builder->share->first && builder->share->contrasts;
     for (size_t pixel = 0; has_memory && pixel < pixels; pixel++) {
         builder->share->first[pixel] = builder->used;
