@@ -1,8 +1,10 @@
-// Rays against many spheres: ours and Embree's, in turn, on the same rays and one core, and the time to build.
+// Rays against many shapes of a kind: ours and Embree's, in turn, on the same rays and one core, and the time to build.
 //
-// Usage: trace_rays [spheres ...]. Prints a line of JSON for each number of spheres: millions of rays a second of each,
-// and the ratios of the medians. Embree works in float, we in double; it is given the rays rounded. Without Embree
-// (Debian: libembree-dev) only our own figures are printed. Timing belongs to bench, never to a test.
+// Usage: trace_rays [spheres|cylinders|cones|boxes|triangles|COUNT ...]. Prints a line of JSON for each count, of the
+// kind that was named last: millions of rays a second of each, and the ratios of the medians. Embree works in float, we
+// in double; it is given the rays rounded. It has no boxes, which it is given as twelve triangles each; cylinders and
+// cones it has as curves of one straight piece. Without Embree (Debian: libembree-dev) only our own figures are
+// printed. Timing belongs to bench, never to a test.
 //
 // SPDX-License-Identifier: MIT
 #include <stdio.h>
@@ -10,14 +12,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "scene/scene.h"
-#include "study/optional.h"
+#include "bench/trace_scenes.h"
 #include "trace/query_surface.h"
-#include "unit/random.h"
-
-#ifdef WITH_EMBREE
-#include <embree3/rtcore.h>
-#endif
 
 // Packets and tiles are timed in portions that lie in the processor's cache, where a renderer has just made them.
 enum { PORTION = 2048 };
@@ -64,19 +60,10 @@ static double median(double *values, int count)
 
 // ---- what is traced: the scenes of generate.py, and three sets of rays
 
-static void make_scene(Scene *scene, uint32_t count)
-{
-    Random random = {1};
-    double radius = 0.6 / cbrt(count);
-    for (uint32_t i = 0; i < count; i++) {
-        Vec3 centre = vec3(random_between(&random, -1, 1), random_between(&random, -1, 1),
-                           random_between(&random, -1, 1));
-        centre = count == 1 ? vec3(0, 0, 0) : centre;
-        if (!scene_add_sphere(scene, centre, radius * random_between(&random, 0.5, 1), 0, 0)) {
-            exit(1);
-        }
-    }
-}
+// A query with the features that the geometry has, as constants.
+#define ASK(g, query, ...)                                                                                             \
+    (query_has_primitives(g, TRACE_PRIMITIVES) ? query(g, TRACE_ALL_FEATURES, __VA_ARGS__)                            \
+                                               : query(g, TRACE_SPHERES | TRACE_SPHERE_BVH, __VA_ARGS__))
 
 static RaySet ray_set(size_t count)
 {
@@ -107,8 +94,9 @@ static void make_secondary_rays(const Geometry *g, const RaySet *camera, RaySet 
         if (!geometry_closest(g, TRACE_ALL_FEATURES, camera->rays[i], RAY_START_FREE, (double)INFINITY, &hit)) {
             continue;
         }
-        Surface surface = geometry_surface(g, TRACE_SPHERES, camera->rays[i], hit);
-        RayStart start = {.shape = hit.shape};
+        Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, camera->rays[i], hit);
+        RayStart start = {.shape = hit.shape, .inward = hit.inside};
+        surface.normal = hit.inside ? vec3_neg(surface.normal) : surface.normal;
         Vec3 mirrored = vec3_normalize(vec3_reflect(camera->rays[i].direction, surface.normal));
         ray_set_add(reflected, (Ray){surface.point, mirrored}, start, (double)INFINITY);
         Vec3 towards = vec3_sub(light, surface.point);
@@ -127,8 +115,7 @@ static double time_closest(const Geometry *g, const RaySet *set, size_t *hits)
     *hits = 0;
     for (size_t i = 0; i < set->count; i++) {
         Hit hit;
-        *hits +=
-            geometry_closest(g, TRACE_SPHERES | TRACE_SPHERE_BVH, set->rays[i], set->starts[i], set->ends[i], &hit);
+        *hits += ASK(g, geometry_closest, set->rays[i], set->starts[i], set->ends[i], &hit);
     }
     return now() - start;
 }
@@ -151,9 +138,9 @@ static void make_tile_shadows(const Geometry *g, TileSet *set, size_t at)
     SurfaceRays *rays = &set->shadows[at];
     set->asked[at] = 0;
     surfaces->count = 0;
-    query_tile_closest(g, TRACE_SPHERES | TRACE_SPHERE_BVH, &set->tiles[at], true, &hits);
+    ASK(g, query_tile_closest, &set->tiles[at], true, &hits);
     if (hits.met) {
-        geometry_tile_surfaces(g, TRACE_SPHERES, &set->tiles[at], &hits, hits.met, surfaces, material);
+        ASK(g, geometry_tile_surfaces, &set->tiles[at], &hits, hits.met, surfaces, material);
     }
     rays->end = light;
     rays->end_radius = 0;
@@ -164,7 +151,8 @@ static void make_tile_shadows(const Geometry *g, TileSet *set, size_t at)
         rays->towards[0][i] = towards.x;
         rays->towards[1][i] = towards.y;
         rays->towards[2][i] = towards.z;
-        set->asked[at] |= (uint64_t)(vec3_dot(offset, tile_surface_outward(surfaces, i)) > 0) << i;
+        bool is_outward = vec3_dot(offset, tile_surface_outward(surfaces, i)) > 0;
+        set->asked[at] |= (uint64_t)(is_outward != (surfaces->inside >> i & 1)) << i;
     }
 }
 
@@ -211,7 +199,7 @@ static double time_tiles(const Geometry *g, const TileSet *set, size_t *hits)
         double start = now();
         for (size_t i = 0; i < count; i++) {
             TileHits found;
-            query_tile_closest(g, TRACE_SPHERES | TRACE_SPHERE_BVH, &tiles[i], true, &found);
+            ASK(g, query_tile_closest, &tiles[i], true, &found);
             *hits += (size_t)__builtin_popcountll(found.met);
         }
         seconds += now() - start;
@@ -232,9 +220,7 @@ static double time_groups(const Geometry *g, const TileSet *set, size_t *hits)
         double start = now();
         for (size_t i = 0; i < count; i++) {
             uint64_t asked = set->asked[at + i];
-            uint64_t dark = asked ? geometry_occluded_surfaces(g, TRACE_SPHERES | TRACE_SPHERE_BVH, &surfaces[i],
-                                                               &shadows[i], true, asked)
-                                  : 0;
+            uint64_t dark = asked ? ASK(g, geometry_occluded_surfaces, &surfaces[i], &shadows[i], true, asked) : 0;
             *hits += (size_t)__builtin_popcountll(dark);
         }
         seconds += now() - start;
@@ -247,7 +233,7 @@ static double time_occluded(const Geometry *g, const RaySet *set, size_t *hits)
     double start = now();
     *hits = 0;
     for (size_t i = 0; i < set->count; i++) {
-        *hits += geometry_occluded(g, TRACE_SPHERES | TRACE_SPHERE_BVH, set->rays[i], set->starts[i], set->ends[i]);
+        *hits += ASK(g, geometry_occluded, set->rays[i], set->starts[i], set->ends[i]);
     }
     return now() - start;
 }
@@ -265,30 +251,10 @@ static double time_build(const Scene *scene, int threads)
 
 #ifdef WITH_EMBREE
 
-static RTCScene embree_build(RTCDevice device, const Scene *scene)
-{
-    RTCScene out = rtcNewScene(device);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    float *spheres = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-                                             4 * sizeof(float), scene->spheres.count);
-    for (size_t i = 0; i < scene->spheres.count; i++) {
-        const Sphere *sphere = &scene->spheres.items[i];
-        spheres[4 * i] = (float)sphere->centre.x;
-        spheres[4 * i + 1] = (float)sphere->centre.y;
-        spheres[4 * i + 2] = (float)sphere->centre.z;
-        spheres[4 * i + 3] = (float)sphere->radius;
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(out, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(out);
-    return out;
-}
-
-static double embree_time_build(RTCDevice device, const Scene *scene)
+static double embree_time_build(RTCDevice device, const Scene *scene, Kind kind)
 {
     double start = now();
-    RTCScene built = embree_build(device, scene);
+    RTCScene built = embree_build(device, scene, kind);
     double seconds = now() - start;
     rtcReleaseScene(built);
     return seconds;
@@ -392,6 +358,7 @@ enum { CAMERA, REFLECTED, SHADOW, TILE, LIGHT, BUILD, MEASURES };
 static const char *const measure_names[MEASURES] = {"camera", "reflected", "shadow", "tile", "light", "build"};
 
 typedef struct Bench {
+    Kind kind;
     Scene scene;
     Geometry *geometry;
     RaySet camera, reflected, shadow;
@@ -427,7 +394,7 @@ static void measure_embree(Bench *b, RTCDevice device, RTCScene scene, int turn)
     best = least(best, embree_time_packets16(scene, &b->camera, false, &hits[TILE]));
     b->seconds[EMBREE][TILE][turn] = best;
     b->seconds[EMBREE][LIGHT][turn] = embree_time_packets8(scene, &b->shadow, true, &hits[LIGHT]);
-    b->seconds[EMBREE][BUILD][turn] = embree_time_build(device, &b->scene);
+    b->seconds[EMBREE][BUILD][turn] = embree_time_build(device, &b->scene, b->kind);
 }
 #endif
 
@@ -435,8 +402,8 @@ static void report(Bench *b, uint32_t count)
 {
     const double work[MEASURES] = {(double)b->camera.count, (double)b->reflected.count, (double)b->shadow.count,
                                    (double)b->camera.count, (double)b->shadow.count, (double)count};
-    printf("{\"spheres\": %u, \"isa\": \"%s\", \"bytes_a_sphere\": %.1f", count, b->geometry->kernels->name,
-           (double)geometry_bytes(b->geometry) / count);
+    printf("{\"%s\": %u, \"isa\": \"%s\", \"bytes_each\": %.1f", kind_names[b->kind], count,
+           b->geometry->kernels->name, (double)geometry_bytes(b->geometry) / count);
     for (int m = 0; m < MEASURES; m++) {
         double ours = median(b->seconds[OURS][m], TURNS), embree = median(b->seconds[EMBREE][m], TURNS);
         if (ours > 0) {
@@ -452,11 +419,12 @@ static void report(Bench *b, uint32_t count)
     fflush(stdout);
 }
 
-static void bench(uint32_t count)
+static void bench(Kind kind, uint32_t count)
 {
     static Bench b;
+    b.kind = kind;
     scene_init(&b.scene);
-    make_scene(&b.scene, count);
+    make_scene(&b.scene, kind, count);
     b.geometry = geometry_new(&b.scene, 0);
     b.camera = ray_set(RAYS);
     b.reflected = ray_set(RAYS);
@@ -466,7 +434,7 @@ static void bench(uint32_t count)
     b.tiles = make_tiles(b.geometry, &b.camera);
 #ifdef WITH_EMBREE
     RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
-    RTCScene scene = embree_build(device, &b.scene);
+    RTCScene scene = embree_build(device, &b.scene, kind);
 #endif
     for (int turn = 0; turn < TURNS; turn++) {
         measure_ours(&b, turn);
@@ -493,11 +461,20 @@ static void bench(uint32_t count)
 int main(int argc, char **argv)
 {
     static const uint32_t usual[] = {1000, 100000, 1000000};
+    Kind kind = SPHERES;
     for (int i = 1; i < argc; i++) {
-        bench((uint32_t)strtoul(argv[i], NULL, 10));
+        Kind named = SPHERES;
+        while (named < KINDS && strcmp(argv[i], kind_names[named]) != 0) {
+            named++;
+        }
+        if (named < KINDS) {
+            kind = named;
+        } else {
+            bench(kind, (uint32_t)strtoul(argv[i], NULL, 10));
+        }
     }
     for (size_t i = 0; argc == 1 && i < RT_COUNT_OF(usual); i++) {
-        bench(usual[i]);
+        bench(SPHERES, usual[i]);
     }
     return 0;
 }

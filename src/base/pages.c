@@ -11,14 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <unistd.h>
 
 static const size_t huge_page = (size_t)2 << 20;
 
 // What is smaller would waste more memory than the faults are worth, which a huge page saves.
 static bool is_large(size_t bytes)
 {
-    return bytes >= huge_page / 2;
+    return bytes >= huge_page / 4;
 }
 
 void pages_prefer_huge(void *memory, size_t bytes)
@@ -72,12 +71,10 @@ void *pages_grow(void *memory, size_t old_bytes, size_t bytes)
     return moved;
 }
 
-// The last page of what is not much more than a few of them is a huge one, too.
+// The last page is a huge one, too: the faults of a few hundred small ones take longer than clearing it.
 static size_t whole_pages(size_t bytes)
 {
-    enum { FEW = 4 };
-    size_t page = bytes < FEW * huge_page ? huge_page : (size_t)sysconf(_SC_PAGESIZE);
-    return (bytes + page - 1) / page * page;
+    return (bytes + huge_page - 1) & ~(huge_page - 1);
 }
 
 // The memory begins on a huge page, which is looked for in a mapping that is larger by one.

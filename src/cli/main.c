@@ -7,6 +7,10 @@
 #include <string.h>
 #include <sys/time.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "cli/options.h"
 #include "cli/povray.h"
 #include "cli/provenance.h"
@@ -258,6 +262,16 @@ static int exit_code(rt_status status, const Options *options)
     return status == RT_CANCELLED ? 128 + (interrupted_by ? (int)interrupted_by : SIGTERM) : (int)status;
 }
 
+// What is large is fresh memory of the system each time, which can be huge pages at once: where parts of it were used
+// before in small pages, the rest would come in such, too, at a fault each.
+static void keep_large_apart(void)
+{
+#ifdef __GLIBC__
+    enum { LARGE = 1 << 21 };
+    (void)mallopt(M_MMAP_THRESHOLD, LARGE);
+#endif
+}
+
 int main(int argc, char **argv)
 {
     Options options = {0};
@@ -268,6 +282,7 @@ int main(int argc, char **argv)
     // --help waits there until `print` can say what went wrong. Never freed: it serves to the end of the program.
     char *buffer = malloc(OUTPUT_BUFFER);
     setvbuf(stdout, buffer, buffer ? _IOFBF : _IONBF, OUTPUT_BUFFER);
+    keep_large_apart();
     hear_signals();
     if (read_command_line(argc, argv, &options, &povray, &voice, &status) == OPTIONS_GO) {
         bool has_files = options.parts > 0 || share_keeps(&options);

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/pages.h"
+#include "base/cleared.h"
 #include "base/parallel.h"
 #include "scene/opaque.h"
 #include "scene/primitive_reach.h"
@@ -534,8 +534,7 @@ static bool table_init(Coincidences *search, size_t items)
         slots *= 2;
     }
     search->mask = (uint32_t)(slots - 1);
-    search->slots = calloc(slots, sizeof *search->slots);
-    pages_prefer_huge(search->slots, slots * sizeof *search->slots);
+    search->slots = cleared_new(slots, sizeof *search->slots);
     return search->slots != NULL;
 }
 

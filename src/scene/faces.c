@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/cleared.h"
 #include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 #include "scene/range.h"
@@ -22,11 +23,11 @@ enum {
 typedef struct FacePlane {
     Vec3 normal; // of unit length, out of the shape
     double distance;
-    double reach; // sum of the magnitudes of the terms of a corner's product with the normal
 } FacePlane;
 
 typedef struct Face {
     FacePlane plane;
+    double reach; // sum of the magnitudes of the terms of a corner's product with the normal
     uint32_t corner_count; // 0: all of the plane
     Vec3 corners[FACE_CORNERS_MOST];
     bool is_flat; // has no inside: seen from both sides
@@ -51,9 +52,11 @@ typedef struct Rectangle {
 
 typedef struct Faces {
     const Scene *scene;
-    FaceRef *refs;
-    size_t count;
-    double unit; // of distances in keys
+    Pages key_pages;
+    uint64_t *keys; // of all faces, in their order
+    FaceRef *refs;  // those whose plane another may have
+    size_t count;   // of refs
+    double unit;    // of distances in keys
     size_t compared;
     uint64_t told; // the order, + 1, of the shape that was reported last
 } Faces;
@@ -71,13 +74,12 @@ static FacePlane plane_of_part(const Primitive *primitive, uint32_t number)
 {
     FacePlane plane;
     if (primitive->kind == PRIMITIVE_PLANE) {
-        plane = (FacePlane){primitive->data[0], primitive->data[1].x, fabs(primitive->data[1].x)};
+        plane = (FacePlane){primitive->data[0], primitive->data[1].x};
     } else {
         const PrimitiveClass *class = primitive_class(primitive->kind);
         Vec3 corner = transform_point(&primitive->to_world, class->corner(primitive, number, 0));
         plane.normal = vec3_normalize(transform_normal(&primitive->to_object, class->face_normal(number)));
         plane.distance = vec3_dot(plane.normal, corner);
-        plane.reach = primitive_reach(primitive, plane.normal);
     }
     if (primitive->flags & PRIMITIVE_INVERSE) {
         plane.normal = vec3_neg(plane.normal);
@@ -95,7 +97,7 @@ static FacePlane plane_at(const Scene *scene, FaceRef ref)
 {
     if (ref.item < scene->planes.count) {
         const Plane *plane = &scene->planes.items[ref.item];
-        return (FacePlane){plane->normal, plane->distance, fabs(plane->distance)};
+        return (FacePlane){plane->normal, plane->distance};
     }
     return plane_of_part(ref_part(scene, ref), ref.face);
 }
@@ -105,6 +107,7 @@ static Face face_at(const Scene *scene, FaceRef ref)
     Face face = {.plane = plane_at(scene, ref), .word = "plane"};
     if (ref.item < scene->planes.count) {
         const Plane *plane = &scene->planes.items[ref.item];
+        face.reach = fabs(plane->distance);
         face.material = plane->material;
         face.order = plane->order;
         face.source = plane->source;
@@ -112,6 +115,8 @@ static Face face_at(const Scene *scene, FaceRef ref)
     }
     const Primitive *primitive = ref_part(scene, ref);
     const PrimitiveClass *class = primitive_class(primitive->kind);
+    bool is_plane = primitive->kind == PRIMITIVE_PLANE;
+    face.reach = is_plane ? fabs(face.plane.distance) : primitive_reach(primitive, face.plane.normal);
     face.corner_count = class->corner_count(primitive);
     for (uint32_t i = 0; i < face.corner_count; i++) {
         face.corners[i] = transform_point(&primitive->to_world, class->corner(primitive, ref.face, i));
@@ -151,7 +156,7 @@ static bool lies_in(const Face *a, const Face *b)
         Vec3 p = a->corners[i], n = b->plane.normal;
         double terms = fabs(p.x * n.x) + fabs(p.y * n.y) + fabs(p.z * n.z);
         if (!(fabs(vec3_dot(p, n) - b->plane.distance) <=
-              TRANSFORM_ROUNDING * (terms + a->plane.reach + b->plane.reach))) {
+              TRANSFORM_ROUNDING * (terms + a->reach + b->reach))) {
             return false;
         }
     }
@@ -299,73 +304,120 @@ static bool sweep(Faces *faces, const FaceRef *refs, size_t count, DiagSink *dia
     return true;
 }
 
-// Keys need the greatest length first.
-static bool collect(Faces *faces)
+static size_t item_count(const Scene *scene)
+{
+    return scene->planes.count + scene->primitives.count;
+}
+
+static uint32_t item_faces(const Scene *scene, size_t item)
+{
+    return item < scene->planes.count ? 1 : face_count(&scene->primitives.items[item - scene->planes.count]);
+}
+
+// About what the terms of distances come to.
+static double item_reach(const Scene *scene, size_t item)
+{
+    const double side = 0x1.279a74590331cp-1; // of 1/sqrt(3) each: a unit normal along no axis
+    if (item < scene->planes.count) {
+        return fabs(scene->planes.items[item].distance);
+    }
+    const Primitive *primitive = &scene->primitives.items[item - scene->planes.count];
+    return primitive->kind == PRIMITIVE_PLANE ? fabs(primitive->data[1].x)
+                                              : primitive_reach(primitive, vec3(side, side, side));
+}
+
+// Counts the faces; keys need the greatest length first. False when out of memory.
+static bool collect(Faces *faces, size_t *count)
 {
     const Scene *scene = faces->scene;
-    size_t most = scene->planes.count;
-    for (size_t i = 0; i < scene->primitives.count; i++) {
-        most += face_count(&scene->primitives.items[i]);
-    }
-    FacePlane *planes = most >= 2 ? malloc(most * sizeof *planes) : NULL;
-    faces->refs = planes ? calloc(most, sizeof *faces->refs) : NULL;
-    if (!faces->refs) {
-        free(planes);
-        return most < 2;
-    }
     double reach = 0.0;
-    for (size_t item = 0; item < scene->planes.count + scene->primitives.count; item++) {
-        uint32_t count =
-            item < scene->planes.count ? 1 : face_count(&scene->primitives.items[item - scene->planes.count]);
-        for (uint32_t i = 0; i < count; i++) {
-            FaceRef ref = {0, (uint32_t)item, i};
-            planes[faces->count] = plane_at(scene, ref);
-            reach = fmax(reach, planes[faces->count].reach);
-            faces->refs[faces->count++] = ref;
-        }
+    *count = 0;
+    for (size_t item = 0; item < item_count(scene); item++) {
+        uint32_t own = item_faces(scene, item);
+        reach = own > 0 ? fmax(reach, item_reach(scene, item)) : reach;
+        *count += own;
     }
     faces->unit = reach > 0.0 && isfinite(reach) ? ldexp(1.0, ilogb(reach) - 40) : 1.0;
-    for (size_t i = 0; i < faces->count; i++) {
-        faces->refs[i].key = plane_key(faces, &planes[i]);
+    if (*count < 2) {
+        return true;
     }
-    free(planes);
+    if (!pages_take(&faces->key_pages, *count * sizeof *faces->keys)) {
+        return false;
+    }
+    faces->keys = faces->key_pages.memory;
+    size_t at = 0;
+    for (size_t item = 0; item < item_count(scene); item++) {
+        for (uint32_t i = 0, own = item_faces(scene, item); i < own; i++) {
+            FacePlane plane = plane_at(scene, (FaceRef){0, (uint32_t)item, i});
+            faces->keys[at++] = plane_key(faces, &plane);
+        }
+    }
     return true;
 }
 
-// Drops the faces whose plane no other has: sorting is for those that are left. A bit for each hash of a key that was
-// seen once, and one for those that were seen again; without memory for them all are kept.
-static void keep_shared(Faces *faces)
+typedef struct KeyBits {
+    uint64_t *once, *again;
+    size_t mask;
+} KeyBits;
+
+static bool is_again(const KeyBits *bits, uint64_t key)
 {
-    size_t bits = 64;
-    while (bits < 8 * faces->count) {
-        bits *= 2;
+    size_t at = key & bits->mask;
+    return bits->again[at / 64] >> at % 64 & 1;
+}
+
+static size_t count_again(const Faces *faces, const KeyBits *bits, size_t count)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        found += is_again(bits, faces->keys[i]);
     }
-    uint64_t *once = calloc(bits / 32, sizeof *once), *again = once ? once + bits / 64 : NULL;
-    for (size_t i = 0; once && i < faces->count; i++) {
-        size_t at = faces->refs[i].key & (bits - 1);
+    return found;
+}
+
+// Leaves out the faces whose plane no other has: a bit for each hash of a key that was seen once, and one for those
+// that were seen again. False when out of memory.
+static bool keep_shared(Faces *faces, size_t count)
+{
+    const Scene *scene = faces->scene;
+    size_t size = 64;
+    while (size < 8 * count) {
+        size *= 2;
+    }
+    KeyBits bits = {.once = cleared_new(size / 32, sizeof(uint64_t)), .mask = size - 1};
+    if (!bits.once) {
+        return false;
+    }
+    bits.again = bits.once + size / 64;
+    for (size_t i = 0; i < count; i++) {
+        size_t at = faces->keys[i] & bits.mask;
         uint64_t bit = UINT64_C(1) << at % 64;
-        again[at / 64] |= once[at / 64] & bit;
-        once[at / 64] |= bit;
+        bits.again[at / 64] |= bits.once[at / 64] & bit;
+        bits.once[at / 64] |= bit;
     }
-    size_t kept = 0;
-    for (size_t i = 0; once && i < faces->count; i++) {
-        size_t at = faces->refs[i].key & (bits - 1);
-        faces->refs[kept] = faces->refs[i];
-        kept += again[at / 64] >> at % 64 & 1;
+    size_t most = count_again(faces, &bits, count), face = 0;
+    faces->refs = malloc((most + 1) * sizeof *faces->refs);
+    for (size_t item = 0; faces->refs && most > 0 && item < item_count(scene); item++) {
+        for (uint32_t i = 0, own = item_faces(scene, item); i < own; i++, face++) {
+            if (is_again(&bits, faces->keys[face])) {
+                faces->refs[faces->count++] = (FaceRef){faces->keys[face], (uint32_t)item, i};
+            }
+        }
     }
-    faces->count = once ? kept : faces->count;
-    free(once);
+    free(bits.once);
+    return faces->refs != NULL;
 }
 
 bool scene_warn_of_faces(const Scene *scene, DiagSink *diags)
 {
     Faces faces = {.scene = scene};
-    if (scene->planes.count + scene->primitives.count >= UINT32_MAX || !diag_is_on(diags, DIAG_W0444)) {
+    if (item_count(scene) >= UINT32_MAX || !diag_is_on(diags, DIAG_W0444)) {
         return true;
     }
-    bool fine = collect(&faces);
-    if (fine && faces.count > 1) {
-        keep_shared(&faces);
+    size_t count;
+    bool fine = collect(&faces, &count) && (count < 2 || keep_shared(&faces, count));
+    pages_give(&faces.key_pages);
+    if (faces.count > 1) {
         qsort(faces.refs, faces.count, sizeof *faces.refs, by_key);
     }
     for (size_t begin = 0, end; fine && begin < faces.count; begin = end) {

@@ -10,7 +10,9 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/parallel.h"
 #include "trace/bvh_split.h"
@@ -230,13 +232,14 @@ static void builder_run(Builder *builder, uint32_t count, unsigned leaf_bits, in
 
 bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, BvhLeafBits leaf_bits, int threads, const atomic_bool *cancel)
 {
-    Builder *builder = calloc(1, sizeof(*builder));
+    Builder *builder = malloc(sizeof *builder);
     int builders = count <= 4 * TASK_REFS_LEAST ? 1 : threads < BUILDERS_MOST ? threads : BUILDERS_MOST;
     if (!builder || !pages_take(&bvh->pages, nodes_most(count, leaf_bits, builders) * sizeof(BvhNode))) {
         free(builder);
         return false;
     }
     BvhChild root;
+    memset(builder, 0, offsetof(Builder, spares)); // which are written before they are read
     builder->refs = refs;
     builder->cancel = cancel;
     builder->nodes = bvh->nodes = bvh->pages.memory;

@@ -3,19 +3,18 @@
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>
 
-#include "base/pages.h"
+#include "base/cleared.h"
 #include "render/records/film.h"
 
 bool film_init(Film *film, int width, int height, unsigned planes)
 {
     size_t pixels = (size_t)width * (size_t)height;
     *film = (Film){.width = width, .height = height, .whole_width = width, .whole_height = height};
-    film->rgb = calloc(pixels, 3 * sizeof(float));
-    pages_prefer_huge(film->rgb, 3 * sizeof(float) * pixels);
+    film->rgb = cleared_new(pixels, 3 * sizeof(float));
     bool is_whole = film->rgb != NULL;
     for (int i = 0; i < FILM_PLANES; i++) {
         if (planes >> i & 1) {
-            film->planes[i] = calloc(pixels, (size_t)film_plane_channels((FilmPlane)i) * sizeof(float));
+            film->planes[i] = cleared_new(pixels, (size_t)film_plane_channels((FilmPlane)i) * sizeof(float));
             is_whole = is_whole && film->planes[i];
         }
     }

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/pages.h"
+#include "base/cleared.h"
 
 enum {
     ALIKE_SAMPLES = 4,  // of every pixel, before some get more than others, where corners say little
@@ -155,18 +155,15 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     bool has_corner_pass = wanted->is_adaptive && wanted->filter == FILTER_BOX;
     bool predicts = wanted->is_adaptive && wanted->target_error > 0.0 && has_progress;
     Sampling *s = calloc(1, sizeof *s);
-    film->records = calloc(width * height, sizeof *film->records);
-    pages_prefer_huge(film->records, width * height * sizeof *film->records);
+    film->records = cleared_new(width * height, sizeof *film->records);
     if (s && wanted->is_adaptive) {
-        s->allocation.of_pixel = calloc(width * height, sizeof *s->allocation.of_pixel);
-        pages_prefer_huge(s->allocation.of_pixel, width * height * sizeof *s->allocation.of_pixel);
+        s->allocation.of_pixel = cleared_new(width * height, sizeof *s->allocation.of_pixel);
         s->allocation.of_block =
-            calloc(round_blocks(film->width) * round_blocks(film->height), sizeof *s->allocation.of_block);
+            cleared_new(round_blocks(film->width) * round_blocks(film->height), sizeof *s->allocation.of_block);
         s->allocation.memory = calloc(width, ALLOCATION_ROWS * sizeof *s->allocation.memory);
     }
     if (s && has_corner_pass) {
-        s->corners = calloc((width + 1) * (height + 1), 3 * sizeof *s->corners);
-        pages_prefer_huge(s->corners, (width + 1) * (height + 1) * 3 * sizeof *s->corners);
+        s->corners = cleared_new((width + 1) * (height + 1), 3 * sizeof *s->corners);
     }
     if (s && predicts) {
         s->predictor = predictor_new(width * height);

@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-#include "base/pages.h"
+#include "base/cleared.h"
 #include "render/sample/sampling_batch.h"
 #include "trace/extent.h"
 
@@ -123,8 +123,7 @@ static bool builder_begin(Builder *builder)
 {
     size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
     builder->cover = pages_grow(NULL, 0, pixels * sizeof *builder->cover);
-    builder->first = calloc(pixels + 1, sizeof *builder->first);
-    pages_prefer_huge(builder->first, pixels * sizeof *builder->first);
+    builder->first = cleared_new(pixels + 1, sizeof *builder->first);
     if (!builder->cover || !builder->first) {
         return false;
     }
@@ -189,7 +188,9 @@ static bool strata_add(Builder *builder, const Outline *outlines, int count, con
     Share *share = builder->share;
     if (builder->used + (size_t)STRATA_MOST > share->capacity) {
         size_t capacity = 2 * share->capacity + 64 * STRATA_MOST;
-        ShareStratum *strata = pages_grow(share->strata, builder->used * sizeof *strata, capacity * sizeof *strata);
+    builder->cover = pages_grow(NULL, 0, pixels * sizeof *builder->cover);
+    builder->first = cleared_new(pixels + 1, sizeof *builder->first);
+    if (!builder->cover || !builder->first) {
         if (!strata) {
             return false;
         }
@@ -228,10 +229,9 @@ static bool pixel_take(Builder *builder, size_t pixel, const Crossed *crossed)
 static bool builder_take_all(Builder *builder)
 {
     size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
-    Share *share = builder->share;
-    uint32_t *first = builder->first;
-    share->pixels = malloc((builder->crossed_count + 1) * sizeof *share->pixels);
-    bool has_memory = share->pixels;
+    builder->cover = pages_grow(NULL, 0, pixels * sizeof *builder->cover);
+    builder->first = cleared_new(pixels + 1, sizeof *builder->first);
+    if (!builder->cover || !builder->first) {
     for (size_t pixel = 0; has_memory && pixel < pixels; pixel++) {
         const Crossed *crossed = first[pixel] > 0 ? &builder->crossed[first[pixel] - 1] : NULL;
         first[pixel] = builder->used;

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cleared.h"
 #include "render/records/camera.h"
 #include "scene/opaque.h"
 
@@ -330,10 +331,10 @@ static bool lists_begin(Small *small)
     size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
     small->words = (extent_count(small->prepared->geometry) + (size_t)small->spot_count + 63) / 64;
     small->norm = filter_norm(small->filter);
-    small->first = malloc((pixels + 1) * sizeof *small->first);
-    small->open = calloc(pixels, sizeof *small->open);
-    small->pixels = malloc((pixels + 1) * sizeof *small->pixels);
-    small->law = malloc(pixels * sizeof *small->law);
+    small->first = cleared_new(pixels + 1, sizeof *small->first);
+    small->open = cleared_new(pixels, sizeof *small->open);
+    small->pixels = cleared_new(pixels + 1, sizeof *small->pixels);
+    small->law = cleared_new(pixels, sizeof *small->law);
     small->met = calloc(3 * small->words, sizeof *small->met);
     small->seen = small->met ? small->met + small->words : NULL;
     small->counted = small->met ? small->seen + small->words : NULL;
