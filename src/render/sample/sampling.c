@@ -165,8 +165,9 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
         s->allocation.memory = calloc(width, ALLOCATION_ROWS * sizeof *s->allocation.memory);
     }
     if (s && has_corner_pass) {
-        s->corners = calloc((width + 1) * (height + 1), 3 * sizeof *s->corners);
-        pages_prefer_huge(s->corners, (width + 1) * (height + 1) * 3 * sizeof *s->corners);
+        size_t colours = 3 * (width + 1) * (height + 1);
+        s->corners = calloc(colours + 1, sizeof *s->corners); // sampling_corners.c reads them by fours
+        pages_prefer_huge(s->corners, colours * sizeof *s->corners);
     }
     if (s && predicts) {
         s->predictor = predictor_new(width * height);
