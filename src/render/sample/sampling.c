@@ -163,7 +163,8 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
         s->allocation.memory = calloc(width, ALLOCATION_ROWS * sizeof *s->allocation.memory);
     }
     if (s && has_corner_pass) {
-        s->corners = cleared_new((width + 1) * (height + 1), 3 * sizeof *s->corners);
+        // One more: sampling_corners.c reads them by fours.
+        s->corners = cleared_new(3 * (width + 1) * (height + 1) + 1, sizeof *s->corners);
     }
     if (s && predicts) {
         s->predictor = predictor_new(width * height);

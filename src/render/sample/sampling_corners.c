@@ -8,6 +8,7 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <string.h>
 
 #include "render/sample/sampling.h"
 
@@ -17,38 +18,51 @@ enum {
     PROBES_LEAST = 12, // of a sort, or of sorts that are taken together
 };
 
-// Four places in a row, of which the two in the middle are corners of a pixel; where the first or the last is beyond
-// the picture, there is no jump before or after.
-typedef struct PixelSide {
-    float bend[3]; // what the mean along it is over that of its ends, where light is even: by a parabola; halved
-    float jumps;   // by how much its ends differ more than those of the sides before and after, squared
-} PixelSide;
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int32_t Int4 __attribute__((vector_size(16)));
 
-static inline float least(float a, float b)
+// Of four places in a row, of which the two in the middle are corners of a pixel, for the three colours what the mean
+// along that side of the pixel is over that of its ends, where light is even: by a parabola; halved. The last is by how
+// much its ends differ more than those of the sides before and after, squared; beyond the picture there is no jump.
+typedef Float4 PixelSide;
+enum { JUMPS = 3 };
+
+static inline Float4 pick(Int4 which, Float4 a, Float4 b)
 {
-    return a < b ? a : b;
+    return (Float4)((which & (Int4)a) | (~which & (Int4)b));
 }
 
-static inline float most(float a, float b)
+static inline Float4 least(Float4 a, Float4 b)
 {
-    return a > b ? a : b;
+    return pick(a < b, a, b);
+}
+
+static inline Float4 most(Float4 a, Float4 b)
+{
+    return pick(a > b, a, b);
+}
+
+// A corner's colours; the fourth is of what follows in memory.
+static inline Float4 corner_at(const float *corner)
+{
+    Float4 colours;
+    memcpy(&colours, corner, sizeof colours);
+    return colours;
 }
 
 // The side from a corner to the next, which is `step` away.
 static inline PixelSide side_make(const float *corner, ptrdiff_t step, bool has_before, bool has_after)
 {
-    PixelSide side = {.jumps = 0.0f};
-    for (int i = 0; i < 3; i++) {
-        const float *at = corner + i;
-        float own = at[step] - *at;
-        float next = has_after ? at[2 * step] - at[step] : 0.0f, last = has_before ? *at - at[-step] : next;
-        next = has_after ? next : last;
-        float a = last - own, b = own - next;
-        float bend = a > 0.0f ? most(least(a, b), 0.0f) : least(most(a, b), 0.0f);
-        float middle = most(least(last, own), least(most(last, own), next));
-        side.bend[i] = bend / 24.0f;
-        side.jumps += (own - middle) * (own - middle);
-    }
+    const Float4 none = {0.0f};
+    Float4 here = corner_at(corner), there = corner_at(corner + step), own = there - here;
+    Float4 next = has_after ? corner_at(corner + 2 * step) - there : none;
+    Float4 last = has_before ? here - corner_at(corner - step) : next;
+    next = has_after ? next : last;
+    Float4 a = last - own, b = own - next;
+    PixelSide side = pick(a > none, most(least(a, b), none), least(most(a, b), none)) / 24.0f;
+    Float4 jumps = own - most(least(last, own), least(most(last, own), next));
+    jumps *= jumps;
+    side[JUMPS] = jumps[0] + jumps[1] + jumps[2];
     return side;
 }
 
@@ -69,12 +83,12 @@ static void row_make(const Round *round, int y, PixelSide *above)
             above[x] = side_make(corner, 3, !is_first, !is_last);
         }
         PixelSide below = side_make(corner + down, 3, !is_first, !is_last);
-        PixelSide right = side_make(corner + 3, down, has_above, has_below);
-        for (int i = 0; i < 3; i++) {
-            value[i] = 0.25f * (corner[i] + corner[3 + i] + corner[down + i] + corner[down + 3 + i]) +
-                       (above[x].bend[i] + below.bend[i] + left.bend[i] + right.bend[i]);
-        }
-        *record = (PixelRecord){.count = 1, .inner = above[x].jumps + below.jumps + left.jumps + right.jumps};
+        PixelSide right = side_make(corner + 3, down, has_above, has_below), sides = above[x] + below + left + right;
+        Float4 corners =
+            corner_at(corner) + corner_at(corner + 3) + corner_at(corner + down) + corner_at(corner + down + 3);
+        Float4 mean = 0.25f * corners + sides;
+        memcpy(value, &mean, 3 * sizeof *value);
+        *record = (PixelRecord){.count = 1, .inner = sides[JUMPS]};
         above[x] = below;
         left = right;
     }
@@ -128,10 +142,12 @@ static uint32_t sorts_fill(const Film *film, uint64_t seed, uint16_t *buckets, u
     }
     uint32_t added = 0;
     for (size_t i = 0; i < count; i++) {
+        if ((buckets[i] & CORNER_PASS_PROBE) || !(part[buckets[i]] > 0.0)) {
+            continue;
+        }
         uint32_t x = (uint32_t)(film->left + (int)(i % (size_t)film->width)),
                  y = (uint32_t)(film->top + (int)(i / (size_t)film->width));
-        if (!(buckets[i] & CORNER_PASS_PROBE) && part[buckets[i]] > 0.0 &&
-            sample_unit(sample_hash_add(sampler_pixel_seed(~seed, x, y), CORNER_PASS_PROBE)) < part[buckets[i]]) {
+        if (sample_unit(sample_hash_add(sampler_pixel_seed(~seed, x, y), CORNER_PASS_PROBE)) < part[buckets[i]]) {
             buckets[i] |= CORNER_PASS_PROBE;
             added++;
         }
@@ -211,7 +227,8 @@ static void sorts_gather(const Film *film, const uint16_t *buckets, Sort sorts[C
 
 // Sorts of few probes go with their neighbours, from the most uneven down; before a sort of many probes, which may have
 // most of the pixels, they go with those above, and do not spoil it.
-static void sorts_judge(const Sort sorts[CORNER_PASS_SORTS], double mean[CORNER_PASS_SORTS], double variance[CORNER_PASS_SORTS])
+static void sorts_judge(const Sort sorts[CORNER_PASS_SORTS], double mean[CORNER_PASS_SORTS],
+                        double variance[CORNER_PASS_SORTS])
 {
     Sort last = {0.0, 0.0, 0.0};
     for (int end = CORNER_PASS_SORTS; end > 0;) {

@@ -241,8 +241,7 @@ static bool builder_take_all(Builder *builder)
         }
     }
     first[pixels] = builder->used;
-    share->contrasts = has_memory ? calloc(builder->used + 1, sizeof *share->contrasts) : NULL;
-    pages_prefer_huge(share->contrasts, builder->used * sizeof *share->contrasts);
+    share->contrasts = has_memory ? cleared_new(builder->used + 1, sizeof *share->contrasts) : NULL;
     return share->contrasts;
 }
 
@@ -552,29 +551,38 @@ static inline void contrast_renew(const Round *round, size_t pixel, ShareContras
     }
 }
 
-// Whether a pixel is one of those that tell of the error.
-static inline bool counts_for_error(const Round *round, size_t pixel)
+// Adds up the contrasts of the pixels that tell of the error.
+static void contrasts_add(const Round *round, double *square, double *weight)
 {
-    size_t width = (size_t)round->film->width;
-    return !round->counts_some || round_counts_for_error(round, (int)(pixel % width), (int)(pixel / width));
+    const Share *share = round->share;
+    const Film *film = round->film;
+    uint32_t width = (uint32_t)film->width, end = 0;
+    bool counts = true;
+    for (uint32_t i = 0; i < share->pixel_count; i++) {
+        uint32_t pixel = share->pixels[i];
+        if (round->counts_some && pixel >= end) { // of another block than the last
+            uint32_t x = pixel % width;
+            counts = round_counts_for_error(round, (int)x, (int)(pixel / width));
+            end = pixel - x + (uint32_t)round_block_end((int)x, film->left, film->width);
+        }
+        if (counts) {
+            ShareContrast *contrast = &share->contrasts[share->first[pixel]];
+            contrast_renew(round, pixel, contrast);
+            *square += (double)contrast->square;
+            *weight += (double)contrast->weight;
+        }
+    }
 }
 
 void share_set_contrasts(const Round *round)
 {
     const Share *share = round->share;
+    uint32_t width = (uint32_t)round->film->width;
     double square = 0.0, weight = 0.0;
-    for (uint32_t i = 0; i < share->pixel_count; i++) {
-        size_t pixel = share->pixels[i];
-        if (counts_for_error(round, pixel)) {
-            ShareContrast *contrast = &share->contrasts[share->first[pixel]];
-            contrast_renew(round, pixel, contrast);
-            square += (double)contrast->square;
-            weight += (double)contrast->weight;
-        }
-    }
+    contrasts_add(round, &square, &weight);
     double of_all = weight > 0.0 ? square / weight : 0.0;
     for (uint32_t i = 0; i < share->pixel_count; i++) {
-        size_t pixel = share->pixels[i], width = (size_t)round->film->width;
+        uint32_t pixel = share->pixels[i];
         ShareContrast *contrast = &share->contrasts[share->first[pixel]];
         if (contrast->sliver > 0.0f) {
             contrast->around = (float)contrast_around(round, (int)(pixel % width), (int)(pixel / width), of_all);
