@@ -157,6 +157,8 @@ bool block_value(Block *block, const SchemaProperty *property, Span word) RT_MUS
 bool block_read_typed(Block *block, const SchemaProperty *property, void *at) RT_MUST_CHECK;
 // True when the number is finite, else a fault.
 bool block_finite(Block *block, double number, Span span, const char *word) RT_MUST_CHECK;
+// Reads a vector of 2, or a number that stands for two of it; `what` says in a message what they are, as "a corner".
+bool block_pair(Block *block, const char *what, double pair[2]) RT_MUST_CHECK;
 // Whether a value comes next that is no word.
 bool block_at_expression(Block *block);
 // Where the next item is, or the block's end.
