@@ -9,6 +9,7 @@
 
 #include "base/attributes.h"
 #include "cli/provenance.h"
+#include "rtlang/sharing.h"
 
 char *share_command(int argc, char **argv)
 {
