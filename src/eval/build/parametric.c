@@ -73,12 +73,13 @@ static bool make(Block *block, Parametric *head, PaintedList *painted)
 {
     const Function *const *functions = block->record->parametric.functions;
     ShapeFormula *formula = &block->record->parametric.formula;
+    const FormulaBlock in = {block->kind, block->node->span};
     Scene scene;
     bool is_made = true;
     scene_init(&scene);
     for (int axis = 0; axis < 3 && is_made; axis++) {
         uint32_t first;
-        is_made = formula_make(block->ev, &scene, functions[axis], block->kind, block->node->span, &first, painted);
+        is_made = formula_make(block->ev, &scene, functions[axis], in, &first, painted);
         head->first[axis] = first;
     }
     is_made = is_made && make_list(block, &scene, head, &formula->list) &&
