@@ -4,6 +4,7 @@
 AM_YFLAGS = -d -Wall -Wno-yacc
 noinst_LTLIBRARIES += libgrammar.la
 libgrammar_la_SOURCES = \
+  %D%/actions.h \
   %D%/block_template.c \
   %D%/directives.c \
   %D%/fragment.c \

@@ -25,9 +25,9 @@ def compiles(header, language):
 def main():
     headers = sorted(glob.glob(TOP + "/src/**/*.h", recursive=True) + glob.glob(TOP + "/grammar/grammar.h"))
     gnu17 = ["-std=gnu17", "-x", "c"]
-    public = os.path.join(TOP, "include/rtlang/rtlang.h")
+    public = sorted(glob.glob(TOP + "/include/rtlang/*.h"))
     cases = [(header, gnu17) for header in headers]
-    cases += [(public, ["-std=c99", "-pedantic", "-x", "c"]), (public, ["-x", "c++"])]
+    cases += [(header, language) for header in public for language in (["-std=c99", "-pedantic", "-x", "c"], ["-x", "c++"])]
     failed = 0
     print(f"1..{len(cases)}")
     for number, (header, language) in enumerate(cases, 1):

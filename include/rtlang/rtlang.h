@@ -107,12 +107,12 @@ typedef enum rt_limit {
 /* Sets a limit, at least 1; the defaults stand above. */
 RT_API rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t value);
 /* For the scene of a stranger: small limits (3 000 000 steps, 1 000 000 shapes, 64 MiB of text, 256 MiB of memory
- * besides the picture, 512 MiB with it, 64 KiB of messages), pictures of the scene in PNG only, and no include files but
- * those of the scene's folders. rt_set_limit may follow. How long a run takes is the client's: rt_cancel. */
+ * besides the picture, 512 MiB with it, 64 KiB of messages), pictures of the scene in PNG only, and no include files
+ * but those of the scene's folders. rt_set_limit may follow. How long a run takes is the client's: rt_cancel. */
 RT_API void rt_set_untrusted(rt_session *session);
-/* Whether pictures of a scene in formats other than PNG, which large libraries decode, are read in a process of its own that
- * may do nothing but that (0, the default): a copy of the client's, made by fork while a scene is loaded. One that crashes over
- * a file is a fault of the scene. Costs a millisecond where such pictures are read. */
+/* Whether pictures of a scene in formats other than PNG, which large libraries decode, are read in a process of its own
+ * that may do nothing but that (0, the default): a copy of the client's, made by fork while a scene is loaded. One that
+ * crashes over a file is a fault of the scene. Costs a millisecond where such pictures are read. */
 RT_API void rt_set_readers(rt_session *session, int on);
 /* NAME=VALUE, as POV-Ray's Declare=: the value is a number. Of two declarations of a name the first holds. */
 RT_API rt_status rt_declare(rt_session *session, const char *name_value);
@@ -128,17 +128,17 @@ typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON, RT_FORMAT_COLOR } rt_fo
 RT_API void rt_set_format(rt_session *session, rt_format format);
 /* An animation: a scene that is loaded once and rendered at several clocks. Before rt_load_*: */
 RT_API rt_status rt_expect_frames(rt_session *session);
-/* After it, and after rt_render: the clock is another one, and so are numbers that were declared with rt_declare, as NAME=VALUE,
- * always the same names. What depends on these, camera, lights, settings and shapes, is read again with the shapes behind the
- * first that does. The rest of the scene stays as it is, with its tree where no shapes depend on them, and *is_set turns 1:
- * rt_render draws the frame. Else it turns 0, and the scene is to be loaded in a new session. The picture is the same, byte for
- * byte; messages that do not depend on the frame come once. */
+/* After it, and after rt_render: the clock is another one, and so are numbers that were declared with rt_declare, as
+ * NAME=VALUE, always the same names. What depends on these, camera, lights, settings and shapes, is read again with the
+ * shapes behind the first that does. The rest of the scene stays as it is, with its tree where no shapes depend on
+ * them, and *is_set turns 1: rt_render draws the frame. Else it turns 0, and the scene is to be loaded in a new
+ * session. The picture is the same, byte for byte; messages that do not depend on the frame come once. */
 RT_API rt_status rt_set_frame(rt_session *session, double clock, const char *const *declarations, size_t count, int *is_set);
 /* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the
  * lengths of fading scale along, so that the picture would be the same but for rounding. scale > 0. Skies stay. */
 RT_API rt_status rt_set_world(rt_session *session, double scale, const double shift[3]);
-/* Size of the picture in pixels, 1 to 65535 each; the scene may ask for it as image_width and image_height.
- * Default 320 x 240. */
+/* Size of the picture in pixels, 1 to 65535 each; the scene may ask for it as image_width and image_height. Default 320
+ * x 240. */
 RT_API rt_status rt_set_size(rt_session *session, int width, int height);
 /* Trace a part of that picture only: the film is then of the part's size, and its pixels are those of the whole picture
  * there, bit for bit, unless sampling is adaptive, which then chooses among the part's pixels. RT_FAULT_USAGE when the
@@ -221,8 +221,9 @@ RT_API rt_status rt_add_spheres(rt_session *session, const rt_spheres *spheres, 
 RT_API rt_status rt_add_rods(rt_session *session, const rt_rods *rods);
 RT_API rt_status rt_add_triangles(rt_session *session, const rt_triangles *triangles);
 /* Other numbers for spheres first to first + count - 1 of a group: those arrays that are given. Finish and name are not
- * looked at. RT_FAULT_USAGE for a group of which spheres of radius 0 were left out. Colours alone build no tree; spheres
- * that move keep theirs, whose boxes are made to fit, as long as it stays about as good as a new one: rt_summary tells. */
+ * looked at. RT_FAULT_USAGE for a group of which spheres of radius 0 were left out. Colours alone build no tree;
+ * spheres that move keep theirs, whose boxes are made to fit, as long as it stays about as good as a new one:
+ * rt_summary tells. */
 RT_API rt_status rt_update_spheres(rt_session *session, size_t group, size_t first, const rt_spheres *spheres);
 
 /* A camera; the same as the text that stands at the right, with 0 for what is left at 0. */
@@ -235,8 +236,8 @@ typedef struct rt_camera {
     int right_handed;    /* coordinates are right-handed: right -aspect*x; 0: left-handed, as the language's */
     double aperture;     /* above 0: a lens of this `aperture`, in focus at look_at */
 } rt_camera;
-/* Instead of the one that there is, of whatever kind. After rt_load_* of any session, too. It costs no tree,
- * unless the range of numbers that the scene is traced in changes by it. */
+/* Instead of the one that there is, of whatever kind. After rt_load_* of any session, too. It costs no tree, unless the
+ * range of numbers that the scene is traced in changes by it. */
 RT_API rt_status rt_set_camera(rt_session *session, const rt_camera *camera);
 
 typedef struct rt_light {
@@ -298,18 +299,19 @@ typedef struct rt_word {
 RT_API int rt_get_word(size_t i, rt_word *word);
 /* Whether the file is in the canonical layout: RT_FAULT_SCENE, and a diagnostic at the first place where it is not. */
 RT_API rt_status rt_check_format(rt_session *session, const char *path);
-/* Write what the last rt_dump_*, rt_format_file or rt_trace_pixel made; the file appears whole or not at all. "-" is standard
- * output. */
+/* Write what the last rt_dump_*, rt_format_file or rt_trace_pixel made; the file appears whole or not at all. "-" is
+ * standard output. */
 RT_API rt_status rt_write_text(rt_session *session, const char *path);
 
-/* Whether what POV-Ray has and rtlang has not is left out with a warning, W0409, instead of being a fault (0, the default).
- * The files of pictures then say what was. */
+/* Whether what POV-Ray has and rtlang has not is left out with a warning, W0409, instead of being a fault (0, the
+ * default). The files of pictures then say what was. */
 RT_API void rt_set_lenient(rt_session *session, int on);
 
-/* Before rt_load_*, and with another text any time after it: the files of pictures, PNG and EXR, say what they were drawn from. `options` is the client's text for
- * what it set, ASCII. PNG has it as text under "rtlang:options", beside "rtlang:scene", the digest of the scene's text (BLAKE2b
- * with 256 bits), and "rtlang:files", the number and the digest of the digests of all files that it included or opened; EXR as
- * attributes. "Software" always says program and version. There is no date: the same run makes the same file. */
+/* Before rt_load_*, and with another text any time after it: the files of pictures, PNG and EXR, say what they were
+ * drawn from. `options` is the client's text for what it set, ASCII. PNG has it as text under "rtlang:options", beside
+ * "rtlang:scene", the digest of the scene's text (BLAKE2b with 256 bits), and "rtlang:files", the number and the digest
+ * of the digests of all files that it included or opened; EXR as attributes. "Software" always says program and
+ * version. There is no date: the same run makes the same file. */
 RT_API rt_status rt_set_provenance(rt_session *session, const char *options);
 /* One of these texts of a file; NULL: it has none. *text is valid until the next call on the session. */
 RT_API rt_status rt_read_note(rt_session *session, const char *path, const char *name, const char **text);
@@ -328,8 +330,8 @@ RT_API const char *rt_isa(size_t i);
 /* Use one of them; the best is used if nothing is said. The picture does not depend on it. */
 RT_API rt_status rt_set_isa(rt_session *session, const char *name);
 /* The precision that the next rt_render works in. All but RT_PRECISION_DOUBLE use a reference kernel for study, which
- * tests each shape for each ray and refuses what it does not know. It samples as the usual ones do.
- * RT_FAULT_USAGE when the library was built without it. */
+ * tests each shape for each ray and refuses what it does not know. It samples as the usual ones do. RT_FAULT_USAGE when
+ * the library was built without it. */
 typedef enum rt_precision {
     RT_PRECISION_DOUBLE,
     RT_PRECISION_FLOAT,
@@ -369,17 +371,18 @@ typedef struct rt_antialias {
 /* RT_FAULT_USAGE for a number out of range. */
 RT_API rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias);
 
-/* Light from all sides, as of an even sky: red, green and blue of what a surface gets that nothing covers, 0 or more; all
- * 0, the default: none. What is in the way dims corners and pockets: ambient occlusion. It has no highlights, the
- * background stays what it is, and scenes do not know of it. It is sampled as area lights are; with one ray a pixel each
- * surface asks in 16 directions. RT_FAULT_USAGE for other numbers; rt_render refuses it with RT_PRECISION_FLOAT, QUAD and
- * REFERENCE and with the forward methods. Call it before rt_load_*, else a scene without lights is warned of. */
+/* Light from all sides, as of an even sky: red, green and blue of what a surface gets that nothing covers, 0 or
+ * more; all 0, the default: none. What is in the way dims corners and pockets: ambient occlusion. It has no
+ * highlights, the background stays what it is, and scenes do not know of it. It is sampled as area lights are; with
+ * one ray a pixel each surface asks in 16 directions. RT_FAULT_USAGE for other numbers; rt_render refuses it with
+ * RT_PRECISION_FLOAT, QUAD and REFERENCE and with the forward methods. Call it before rt_load_*, else a scene
+ * without lights is warned of. */
 RT_API rt_status rt_set_sky_light(rt_session *session, const double color[3]);
 
-/* Lines of a color (linear light) around shapes, `width` pixels wide, 0 to 16; 0, the default: none. They go where a shape
- * ends before another one or before nothing, and where two objects meet at an angle: neighbours of one mesh and the
- * halves of a rod have none between them. They are drawn over the light, where the middle of a lens sees shapes, and stand
- * before the background of pictures with alpha. RT_FAULT_USAGE for other numbers. */
+/* Lines of a color (linear light) around shapes, `width` pixels wide, 0 to 16; 0, the default: none. They go where a
+ * shape ends before another one or before nothing, and where two objects meet at an angle: neighbours of one mesh and
+ * the halves of a rod have none between them. They are drawn over the light, where the middle of a lens sees shapes,
+ * and stand before the background of pictures with alpha. RT_FAULT_USAGE for other numbers. */
 RT_API rt_status rt_set_outline(rt_session *session, double width, const double color[3]);
 /* Far things turn to one color (depth cue): from nothing of it at `near` to `strength` of it at `far` and beyond, along
  * the camera's direction. What meets nothing stays as it is. */
@@ -392,8 +395,8 @@ typedef struct rt_depth_cue {
 /* RT_FAULT_USAGE for other numbers. */
 RT_API rt_status rt_set_depth_cue(rt_session *session, const rt_depth_cue *cue);
 
-/* Whether pictures tell, beside their light, how much each pixel shows of what is behind the scene: of the clear part of
- * its background, or of all of it in scenes of before version 3.7. 0, the default: the background is light like all
+/* Whether pictures tell, beside their light, how much each pixel shows of what is behind the scene: of the clear part
+ * of its background, or of all of it in scenes of before version 3.7. 0, the default: the background is light like all
  * else. RT_FAULT_USAGE from rt_render with another precision than double or a forward method. */
 RT_API void rt_set_alpha(rt_session *session, int on);
 
@@ -412,8 +415,9 @@ typedef enum rt_plane {
 /* The planes of pictures from now on, bits of rt_plane; 0, the default: none, and they cost nothing. rt_render reports
  * E0703 for the first two where the picture is not sampled. RT_FAULT_USAGE for other bits. */
 RT_API rt_status rt_set_planes(rt_session *session, unsigned planes);
-/* Copies one plane of the rendered picture: its numbers pixel by pixel, from the top row. `bytes` is the room at `values`;
- * RT_FAULT_USAGE unless it is what the plane takes, 4 bytes a number, and unless rt_set_planes asked for it. */
+/* Copies one plane of the rendered picture: its numbers pixel by pixel, from the top row. `bytes` is the room at
+ * `values`; RT_FAULT_USAGE unless it is what the plane takes, 4 bytes a number, and unless rt_set_planes asked for
+ * it. */
 RT_API rt_status rt_get_plane(rt_session *session, rt_plane plane, void *values, size_t bytes);
 
 /* Nobody asks for the scene after the next rt_render, which may free parts of it as it continues: with very many
@@ -421,8 +425,8 @@ RT_API rt_status rt_get_plane(rt_session *session, rt_plane plane, void *values,
 RT_API void rt_discard_scene(rt_session *session);
 
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. May be repeated,
- * with other settings of size, crop, sampling and the like: what was built for shapes that did not change serves again, and
- * the new picture takes the place of the old one. */
+ * with other settings of size, crop, sampling and the like: what was built for shapes that did not change serves again,
+ * and the new picture takes the place of the old one. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets,
  * the quadratic of each sphere and the root that is used, the hit and its light, and the same for the rays that
@@ -438,8 +442,8 @@ RT_API rt_status rt_set_trace_form(rt_session *session, rt_trace_form form, int 
 /* Why a sampled run ended. */
 typedef enum rt_end { RT_END_DONE, RT_END_TARGET, RT_END_TIME, RT_END_INTERRUPTED } rt_end;
 
-/* What sampling leaves of error in the picture, computed from the samples themselves. May be asked for while
- * rendering, from the progress callback. */
+/* What sampling leaves of error in the picture, computed from the samples themselves. May be asked for while rendering,
+ * from the progress callback. */
 typedef struct rt_error {
     int known;              /* 0: one ray a pixel, or no estimate; only `samples` then means something */
     double rmse, low, high; /* root mean square over all values, in linear light; ends of the 95 % interval */
@@ -508,8 +512,8 @@ RT_API const float *rt_pixels(const rt_session *session, int *width, int *height
 RT_API float *rt_take_pixels(rt_session *session, int *width, int *height);
 RT_API void rt_free_pixels(float *pixels);
 
-/* With rt_set_alpha: width * height numbers, the share of what is behind the scene: 1 - alpha. It is not in the light of
- * rt_pixels, which so is multiplied with alpha. NULL otherwise and before rt_render. */
+/* With rt_set_alpha: width * height numbers, the share of what is behind the scene: 1 - alpha. It is not in the light
+ * of rt_pixels, which so is multiplied with alpha. NULL otherwise and before rt_render. */
 RT_API const float *rt_transparency(const rt_session *session);
 
 /* The picture's numbers, encoded as output says (RT_DEPTH_AUTO: 8 bits; floats are linear): rows from the top, red,
@@ -523,43 +527,6 @@ RT_API rt_status rt_set_pixels(rt_session *session, int width, int height, const
 /* The PNG file that rt_write would write, 8 or 16 bits. *bytes is valid until the next call of it and until the session
  * is freed. */
 RT_API rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigned char **bytes, size_t *size);
-
-/* A picture on which several processes work, or one that is stopped and continued. The bytes of its file are those of one
- * run. */
-typedef struct rt_sharing {
-    int part, parts;          /* trace this part of the picture alone, from 1, of so many; 0, 0: all of it */
-    const char *checkpoint;   /* a file that is made, and has what is done so far; NULL: none */
-    double seconds;           /* after as many it is written to, at the next tile that is done; 0: at each tile */
-    int resume;               /* not 0: begin with what the checkpoint has, if there is one */
-    const char *const *joined; /* files of all parts, which are not traced again */
-    size_t joined_count;
-    const char *command; /* a text that the files keep, for rt_read_command; or NULL */
-} rt_sharing;
-/* For the calls of rt_render that follow; NULL: nothing is shared any more. Wants rt_set_provenance before the scene is
- * loaded: what files hold of another scene, version or provenance is not taken. Of a part rt_write_part can be asked, and
- * nothing else of its picture. RT_FAULT_USAGE when numbers are no part, or a part is to be joined, too. */
-RT_API rt_status rt_set_sharing(rt_session *session, const rt_sharing *sharing);
-/* After rt_render of a part. */
-RT_API rt_status rt_write_part(rt_session *session, const char *path);
-/* What rt_sharing.command was when a part or checkpoint was made. *command is valid until the next call on the session. */
-RT_API rt_status rt_read_command(rt_session *session, const char *path, const char **command);
-
-/* Ranks of MPI, which share the tiles of each picture that is rendered from here on: each of them loads the same scene and
- * makes the same calls, and rank 0 has the picture. Loads the module for MPI, which begins it once a process. */
-RT_API rt_status rt_join_ranks(rt_session *session, int *rank, int *ranks);
-/* Each rank keeps a part of the spheres of the scenes that are loaded from here on, and asks the others for what its rays
- * meet: for scenes that are larger than a machine. RT_FAULT_USAGE without ranks, or once a scene is loaded. */
-RT_API rt_status rt_share_scene(rt_session *session);
-/* rt_load_file by rank 0 alone, which sends the scene to the others; called by all. Not with rt_share_scene. */
-RT_API rt_status rt_load_file_of_ranks(rt_session *session, const char *path);
-/* After the scene is loaded, or could not be, with `status`; called by all ranks. RT_OK where each is ready to render the
- * same picture; else what the worst has, and rank 0 reports the first rank that is not, *first. */
-RT_API rt_status rt_agree_with_ranks(rt_session *session, rt_status status, int *first);
-/* The worst status of all ranks; called by all. */
-RT_API rt_status rt_worst_of_ranks(rt_session *session, rt_status status);
-/* The end, for all; and at once, for one that cannot continue while others wait for it. No call on ranks may follow. */
-RT_API void rt_leave_ranks(rt_session *session);
-RT_API void rt_stop_ranks(rt_session *session, int code);
 
 /* The memory of a scene that is loaded, in bytes. */
 typedef struct rt_budget {

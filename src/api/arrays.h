@@ -71,13 +71,21 @@ typedef struct ShapeList {
     FinishIndex finish;
 } ShapeList;
 
+// What a call adds: so many elements of arrays, and what all of them look like.
+typedef struct ShapeArrays {
+    const char *name; // for messages
+    size_t count;
+    const ArrayCheck *checks;
+    int check_count;
+    const rt_look *look;
+} ShapeArrays;
+
 bool look_is_known(const rt_look *look);
 ArrayCheck look_check(const rt_look *look);
 Span shape_list_span(const ShapeList *list, size_t element);
 
 // Numbers the elements, and reads the finish. False after a fault, with nothing taken.
-bool shape_list_begin(ShapeList *list, rt_session *session, const char *name, size_t count, const ArrayCheck *checks,
-                      int check_count, const rt_look *look) RT_MUST_CHECK;
+bool shape_list_begin(ShapeList *list, rt_session *session, const ShapeArrays *arrays) RT_MUST_CHECK;
 // Whether so many more records may be taken; reports when not.
 bool shape_list_has_room(const ShapeList *list, size_t count, size_t bytes_each) RT_MUST_CHECK;
 // Warns that an element is not drawn.

@@ -74,27 +74,26 @@ ArrayCheck look_check(const rt_look *look)
     return (ArrayCheck){"color", &look->colors, look->color_numbers, ARRAY_COLOR};
 }
 
-bool shape_list_begin(ShapeList *list, rt_session *session, const char *name, size_t count, const ArrayCheck *checks,
-                      int check_count, const rt_look *look)
+bool shape_list_begin(ShapeList *list, rt_session *session, const ShapeArrays *arrays)
 {
-    *list = (ShapeList){.session = session, .source = source_open_list(session->sources, name, count)};
+    *list = (ShapeList){.session = session, .source = source_open_list(session->sources, arrays->name, arrays->count)};
     if (!list->source) {
         return session_no_room(session, SPAN_NONE);
     }
     list->base = source_base(list->source);
-    for (int i = 0; i < check_count; i++) {
-        size_t numbers = array_is_given(checks[i].array) ? (size_t)checks[i].numbers : 0;
-        session->array_bytes += numbers * count * sizeof(double);
+    for (int i = 0; i < arrays->check_count; i++) {
+        const ArrayCheck *check = &arrays->checks[i];
+        size_t numbers = array_is_given(check->array) ? (size_t)check->numbers : 0;
+        session->array_bytes += numbers * arrays->count * sizeof(double);
     }
-    return session_read_finish(session, look->finish, &list->finish);
+    return session_read_finish(session, arrays->look->finish, &list->finish);
 }
 
 // The same, and looks at all of the elements.
-static bool shape_list_open(ShapeList *list, rt_session *session, const char *name, size_t count,
-                            const ArrayCheck *checks, int check_count, const rt_look *look)
+static bool shape_list_open(ShapeList *list, rt_session *session, const ShapeArrays *arrays)
 {
-    return shape_list_begin(list, session, name, count, checks, check_count, look) &&
-           arrays_are_fine(session, checks, check_count, count, list->base);
+    return shape_list_begin(list, session, arrays) &&
+           arrays_are_fine(session, arrays->checks, arrays->check_count, arrays->count, list->base);
 }
 
 rt_status session_finish_call(rt_session *session, bool fine)
@@ -193,10 +192,10 @@ rt_status rt_add_rods(rt_session *session, const rt_rods *rods)
                            {"radius", &rods->base_radii, 1, ARRAY_NOT_NEGATIVE},
                            {"radius of the cap", &rods->cap_radii, 1, ARRAY_NOT_NEGATIVE},
                            look_check(&rods->look)};
+    const ShapeArrays arrays = {rods->name ? rods->name : "rods", rods->count, checks, 5, &rods->look};
     ShapeList list;
-    bool fine =
-        shape_list_open(&list, session, rods->name ? rods->name : "rods", rods->count, checks, 5, &rods->look) &&
-        rods_have_ends(session, rods, list.base) && parts_add(&list, make_rod, rods, rods->count, &rods->look);
+    bool fine = shape_list_open(&list, session, &arrays) && rods_have_ends(session, rods, list.base) &&
+                parts_add(&list, make_rod, rods, rods->count, &rods->look);
     session->is_checked = false;
     return session_finish_call(session, fine);
 }
@@ -225,9 +224,10 @@ rt_status rt_add_triangles(rt_session *session, const rt_triangles *triangles)
     ArrayCheck checks[] = {{"corners", &triangles->corners, 9, ARRAY_FINITE},
                            {"normals", &triangles->normals, 9, ARRAY_FINITE},
                            look_check(&triangles->look)};
+    const ShapeArrays arrays = {triangles->name ? triangles->name : "triangles", triangles->count, checks, 3,
+                                &triangles->look};
     ShapeList list;
-    bool fine = shape_list_open(&list, session, triangles->name ? triangles->name : "triangles", triangles->count,
-                                checks, 3, &triangles->look) &&
+    bool fine = shape_list_open(&list, session, &arrays) &&
                 parts_add(&list, make_triangle, triangles, triangles->count, &triangles->look);
     session->is_checked = false;
     return session_finish_call(session, fine);

@@ -350,7 +350,8 @@ static bool spheres_add(const ShapeList *list, const rt_spheres *spheres, const 
     Scene *scene = &session->scene;
     uint32_t shapes = scene->shape_count;
     Filling filling = {.list = list, .spheres = spheres, .is_alike = spheres->look.colors.stride == 0};
-    *group = (SessionGroup){source_name(list->source), scene->spheres.count, spheres->count, list->base, false, RECORD_NONE};
+    *group =
+        (SessionGroup){source_name(list->source), scene->spheres.count, spheres->count, list->base, false, RECORD_NONE};
     if (spheres->count == 0) {
         return ARRAY_RESERVE(&session->groups, session->groups.count + 1) ||
                session_no_room(session, shape_list_span(list, 0));
@@ -379,11 +380,10 @@ rt_status rt_add_spheres(rt_session *session, const rt_spheres *spheres, size_t 
     ArrayCheck checks[] = {{"center", &spheres->centers, 3, ARRAY_FINITE},
                            {"radius", &spheres->radii, 1, ARRAY_NOT_NEGATIVE},
                            look_check(&spheres->look)};
+    const ShapeArrays arrays = {spheres->name ? spheres->name : "spheres", spheres->count, checks, 3, &spheres->look};
     ShapeList list;
     SessionGroup added;
-    bool fine = shape_list_begin(&list, session, spheres->name ? spheres->name : "spheres", spheres->count, checks, 3,
-                                 &spheres->look) &&
-                spheres_add(&list, spheres, checks, &added);
+    bool fine = shape_list_begin(&list, session, &arrays) && spheres_add(&list, spheres, checks, &added);
     if (fine) {
         session->is_checked = false;
         fine = ARRAY_PUSH(&session->groups, added);

@@ -57,7 +57,7 @@ bool session_open(rt_session *session, const char *path, Source **source)
             diag_suggest(&session->diags, "`--max-memory` allows more");
         }
         break;
-    case SOURCE_NOT_A_FILE: // only where files alone are asked for
+    case SOURCE_NOT_A_FILE: // only where only files are allowed
     case SOURCE_NO_MEMORY:
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", name);
         break;

@@ -66,7 +66,7 @@ static ForwardOptions forward_options(const rt_session *session, const RenderOpt
     };
 }
 
-// Whether the forward tracer, if it is asked for, knows all of the scene; reports what it does not.
+// Whether the forward tracer, if it is requested, knows all of the scene; reports what it does not.
 static bool forward_fits(rt_session *session, const Prepared *prepared)
 {
     ForwardOptions options = forward_options(session, &(RenderOptions){.threads = 1});

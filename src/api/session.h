@@ -21,6 +21,7 @@
 #include "render/inspect/overlay.h"
 #include "render/render.h"
 #include "rtlang/rtlang.h"
+#include "rtlang/sharing.h"
 #include "scene/scene.h"
 #include "share/alone.h"
 #include "share/ranks.h"
@@ -136,7 +137,7 @@ struct rt_session {
     Vec3 kept_origin;
     size_t past_errors, past_warnings; // of calls before the present one
     unsigned char *png;                // that was asked for last
-    bool is_last, is_spent; // it is rendered once, and nothing else is asked of it; this is done
+    bool is_last, is_spent; // it is rendered once, and nothing else will use it; this is done
     Film film;
     struct {
         SamplingOptions sampling;

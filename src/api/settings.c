@@ -102,7 +102,7 @@ rt_status rt_set_clock(rt_session *session, double clock)
     return RT_OK;
 }
 
-// Calls nest no deeper than POV-Ray lets them, whatever is asked for.
+// Calls nest no deeper than POV-Ray lets them, whatever is requested.
 static unsigned at_most(uint64_t value, unsigned greatest)
 {
     return value < greatest ? (unsigned)value : greatest;

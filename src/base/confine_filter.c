@@ -118,7 +118,7 @@ static size_t argument(unsigned i)
 
 enum { REFUSE = SECCOMP_RET_ERRNO | EPERM };
 
-// Refuses a call where the bits of an argument have (or, by `is_without`, lack) what is asked for.
+// Refuses a call where the bits of an argument have (or, by `is_without`, lack) the given ones.
 static void put_bits(Filter *filter, uint32_t call, unsigned i, uint32_t bits, bool is_without)
 {
     put(filter, BPF_JMP | BPF_JEQ | BPF_K, call, 0, 4);

@@ -67,7 +67,7 @@ static inline unsigned plain_count_digits(uint64_t chunk)
     return others != 0 ? (unsigned)__builtin_ctzll(others) / 8 : 8;
 }
 
-// The number of eight digits: pairs, pairs of pairs and so on are put together by multiplication.
+// The number of eight digits: pairs, pairs of pairs and so on are combined by multiplication.
 static inline uint64_t plain_join(uint64_t digits)
 {
     digits = digits * 10 + (digits >> 8);

@@ -44,7 +44,7 @@ typedef struct Check {
     int include_path_count;
     char folder[PATH_MAX]; // absolute; holds pictures and logs
     bool keeps_folder;
-    ScenesReport *report; // NULL: none is asked for
+    ScenesReport *report; // NULL: none is requested
 } Check;
 
 // The files of one scene.

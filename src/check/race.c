@@ -12,7 +12,7 @@
 
 enum {
     REFERENCE_DEPTH = 4, // of POV-Ray's, +R; 4 means 256 rays a pixel
-    REFERENCE_SAMPLES = 256, // where nothing else is asked for
+    REFERENCE_SAMPLES = 256, // unless options say otherwise
     RUNS_MOST = 3,       // of a setting that is soon done
     SIDE_LEAST = 64,
     SIDE_MOST = 8192,

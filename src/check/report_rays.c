@@ -12,10 +12,10 @@
 #include "check/report_html.h"
 
 enum {
-    RAYS = 6,           // pixels whose rays are logged
-    RAYS_APART = 8,     // pixels between them at least
+    RAYS = 6,       // pixels whose rays are logged
+    RAYS_APART = 8, // pixels between them at least
     DIGITS = 6,
-    LOG_MOST = 20000,   // bytes of a log
+    LOG_MOST = 20000, // bytes of a log
     SOURCE_MOST = 200000,
 };
 
@@ -44,8 +44,7 @@ static int pixels_choose(const Image *ours, const Image *theirs, Pixel pixels[RA
         Pixel most = {.difference = 0.0};
         for (int y = 0; y < ours->height; y++) {
             for (int x = 0; x < ours->width; x++) {
-                double difference =
-                    image_pixel_difference(ours, theirs, (size_t)y * (size_t)ours->width + (size_t)x);
+                double difference = image_pixel_difference(ours, theirs, (size_t)y * (size_t)ours->width + (size_t)x);
                 if (difference > most.difference && !is_near(pixels, count, x, y)) {
                     most = (Pixel){x, y, difference};
                 }
@@ -91,8 +90,9 @@ static void print_pixel(FILE *out, int number, rt_session *session, const Pixel 
 {
     const char *text;
 
-    fprintf(out, "<details class=\"ray\" id=\"ray-%d-%d-%d\" data-x=\"%d\" data-y=\"%d\"><summary>pixel %d, %d: %.0f/65535 "
-                 "apart</summary>\n",
+    fprintf(out,
+            "<details class=\"ray\" id=\"ray-%d-%d-%d\" data-x=\"%d\" data-y=\"%d\"><summary>pixel %d, %d: %.0f/65535 "
+            "apart</summary>\n",
             number, pixel->x, pixel->y, pixel->x, pixel->y, pixel->x, pixel->y, report_steps(pixel->difference));
     if (rt_set_trace_form(session, RT_TRACE_SVG, DIGITS) == RT_OK &&
         rt_trace_pixel(session, pixel->x, pixel->y, &text) == RT_OK) {
@@ -123,7 +123,8 @@ static void print_command(FILE *out, const char *scene, const Options *options)
 
 static void print_viewer(FILE *out, int number, const char *scene, const Options *options)
 {
-    fputs("<details class=\"viewer\"><summary>Flicker, zoom, and the ray of a pixel</summary>\n<div class=\"tools\">", out);
+    fputs("<details class=\"viewer\"><summary>Flicker, zoom, and the ray of a pixel</summary>\n<div class=\"tools\">",
+          out);
     fputs("<label>Show <select class=\"shown\"><option value=\"0\">rtlang</option><option value=\"1\">POV-Ray</option>"
           "<option value=\"2\">the difference</option></select></label>"
           "<button type=\"button\" class=\"flicker\" aria-pressed=\"false\">Flicker</button>"
@@ -132,9 +133,10 @@ static void print_viewer(FILE *out, int number, const char *scene, const Options
     for (int zoom = 1; zoom <= 16; zoom *= 2) {
         fprintf(out, "<option value=\"%d\"%s>%d times</option>", zoom, zoom == 2 ? " selected" : "", zoom);
     }
-    fprintf(out, "</select></label></div>\n<div class=\"stage\" tabindex=\"0\" role=\"region\" aria-label=\"Picture %d, "
-                 "enlarged: a click on a pixel shows its ray\"></div>\n<output class=\"pixel\">A click on a pixel shows "
-                 "its ray.</output>\n<code class=\"command\" data-command=\"",
+    fprintf(out,
+            "</select></label></div>\n<div class=\"stage\" tabindex=\"0\" role=\"region\" aria-label=\"Picture %d, "
+            "enlarged: a click on a pixel shows its ray\"></div>\n<output class=\"pixel\">A click on a pixel shows "
+            "its ray.</output>\n<code class=\"command\" data-command=\"",
             number);
     print_command(out, scene, options);
     fputs("\"></code>\n</details>\n", out);
@@ -162,17 +164,16 @@ static void print_source(FILE *out, const char *scene)
     }
 }
 
-void report_rays(FILE *out, int number, const char *scene, const Options *options, rt_session *session,
-                 const Image *ours, const Image *theirs)
+void report_rays(FILE *out, const ComparedScene *compared, const Options *options)
 {
     Pixel pixels[RAYS];
-    int count = pixels_choose(ours, theirs, pixels);
+    int count = pixels_choose(compared->ours, compared->theirs, pixels);
 
-    print_viewer(out, number, scene, options);
+    print_viewer(out, compared->number, compared->scene, options);
     fputs("<div class=\"rays\">\n", out);
     for (int i = 0; i < count; i++) {
-        print_pixel(out, number, session, &pixels[i]);
+        print_pixel(out, compared->number, compared->session, &pixels[i]);
     }
     fputs("</div>\n", out);
-    print_source(out, scene);
+    print_source(out, compared->scene);
 }

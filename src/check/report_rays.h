@@ -1,5 +1,5 @@
-// What the page has for those who ask why a pixel differs: a viewer of both pictures, the ray logs of pixels that differ
-// most, and the scene's text.
+// What the page has for those who ask why a pixel differs: a viewer of both pictures, the ray logs of pixels that
+// differ most, and the scene's text.
 //
 // SPDX-License-Identifier: MIT
 #ifndef CHECK_REPORT_RAYS_H
@@ -11,8 +11,14 @@
 #include "image/image.h"
 #include "rtlang/rtlang.h"
 
-// `number` distinguishes scenes; `session` has the scene loaded.
-void report_rays(FILE *out, int number, const char *scene, const Options *options, rt_session *session,
-                 const Image *ours, const Image *theirs);
+// What both programs made of a scene, which `session` has loaded.
+typedef struct ComparedScene {
+    int number; // distinguishes scenes of a report
+    const char *scene;
+    rt_session *session;
+    const Image *ours, *theirs;
+} ComparedScene;
+
+void report_rays(FILE *out, const ComparedScene *compared, const Options *options);
 
 #endif

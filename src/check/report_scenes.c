@@ -20,8 +20,8 @@ static const struct {
     double place;
     unsigned char colour[3];
 } heat_stops[] = {
-    {0.0, {10, 10, 20}},     {0.06, {44, 22, 92}},    {0.25, {118, 28, 118}}, {0.5, {212, 62, 78}},
-    {0.7, {245, 140, 40}},   {0.88, {252, 216, 96}},  {1.0, {255, 255, 240}},
+    {0.0, {10, 10, 20}},   {0.06, {44, 22, 92}},   {0.25, {118, 28, 118}}, {0.5, {212, 62, 78}},
+    {0.7, {245, 140, 40}}, {0.88, {252, 216, 96}}, {1.0, {255, 255, 240}},
 };
 
 static double heat_place(double steps)
@@ -52,17 +52,19 @@ static void heat_print_scale(FILE *out)
         const char *words;
     } marks[] = {{0, "0"}, {2, "2"}, {16, "16"}, {257, "257 = 1/255"}, {4096, "4096"}, {65535, "65535"}};
 
-    fputs("<p class=\"tools\"><label>Scale of the difference <select class=\"scale-choice\"><option value=\"0\">logarithmic, "
-          "to 65535</option><option value=\"16\">even, to 16</option><option value=\"257\">even, to 257 = 1/255</option>"
-          "<option value=\"4096\">even, to 4096</option><option value=\"65535\">even, to 65535</option></select></label></p>\n"
-          "<div class=\"scale\" role=\"img\" aria-label=\"Scale of differences in steps of 1/65535\" data-stops=\"[",
-          out);
+    fputs(
+        "<p class=\"tools\"><label>Scale of the difference <select class=\"scale-choice\"><option "
+        "value=\"0\">logarithmic, "
+        "to 65535</option><option value=\"16\">even, to 16</option><option value=\"257\">even, to 257 = 1/255</option>"
+        "<option value=\"4096\">even, to 4096</option><option value=\"65535\">even, to "
+        "65535</option></select></label></p>\n"
+        "<div class=\"scale\" role=\"img\" aria-label=\"Scale of differences in steps of 1/65535\" data-stops=\"[",
+        out);
     for (size_t i = 0; i < RT_COUNT_OF(heat_stops); i++) {
         const unsigned char *c = heat_stops[i].colour;
         fprintf(out, "%s[%g,%d,%d,%d]", i > 0 ? "," : "", heat_stops[i].place, c[0], c[1], c[2]);
     }
-    fputs("]\"><div class=\"colours\" style=\"background: linear-gradient(to right",
-          out);
+    fputs("]\"><div class=\"colours\" style=\"background: linear-gradient(to right", out);
     for (size_t i = 0; i < RT_COUNT_OF(heat_stops); i++) {
         const unsigned char *c = heat_stops[i].colour;
         fprintf(out, ", rgb(%d %d %d) %g%%", c[0], c[1], c[2], 100.0 * heat_stops[i].place);
@@ -178,7 +180,8 @@ static bool pictures_print(ScenesReport *report, const Image *ours, const Image 
 
     fputs("<div class=\"pictures\">\n", report->out);
     fine = figure_print(report, ours, &for_screens, "rtlang", "") &&
-           figure_print(report, theirs, &for_screens, "POV-Ray", "") && differences_print(report, ours, theirs, &histogram);
+           figure_print(report, theirs, &for_screens, "POV-Ray", "") &&
+           differences_print(report, ours, theirs, &histogram);
     fputs("</div>\n<output class=\"probe\"></output>\n", report->out);
     char name[32];
     snprintf(name, sizeof name, "scene %d", report->count);
@@ -230,7 +233,7 @@ bool scenes_report_add(ScenesReport *report, const Outcome *outcome, const Optio
     range_print(out, outcome);
     if (outcome->compared) {
         fine = pictures_print(report, ours, theirs);
-        report_rays(out, report->count, outcome->scene, options, session, ours, theirs);
+        report_rays(out, &(ComparedScene){report->count, outcome->scene, session, ours, theirs}, options);
     } else {
         fputs("<pre>", out);
         html_text(out, outcome->detail);
@@ -317,8 +320,7 @@ static void row_print(FILE *out, const Outcome *outcome, int number, size_t fold
 static void table_print(FILE *out, const ScenesReport *report)
 {
     static const char *const headings[] = {
-        "max",           "RMSE",  "PSNR", "FLIP", "beyond bar", "beyond 1/65535",
-        "beyond 1/255", "rtlang s", "POV-Ray s", "ratio",
+        "max", "RMSE", "PSNR", "FLIP", "beyond bar", "beyond 1/65535", "beyond 1/255", "rtlang s", "POV-Ray s", "ratio",
     };
 
     report_table_heading(out, "Scenes");

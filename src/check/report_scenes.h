@@ -30,7 +30,7 @@ bool scenes_report_init(ScenesReport *report, int scene_count);
 void scenes_report_fini(ScenesReport *report);
 
 // Adds a scene, its outcome being copied but for the name. Where the pictures were compared, `ours` and `theirs` are
-// they, in linear light, and the session has the scene; otherwise nothing is asked of them. False when something could
+// they, in linear light, and the session has the scene; otherwise they are not read. False when something could
 // not be written.
 bool scenes_report_add(ScenesReport *report, const Outcome *outcome, const Options *options, rt_session *session,
                        const Image *ours, const Image *theirs);

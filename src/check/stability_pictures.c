@@ -71,17 +71,22 @@ static void picture_compare(PictureRow *row, const float *a, const float *b)
     row->rmse = sqrt(sum / VALUES);
 }
 
-static bool compare(Stability *stability, const Options *options, const StudyScene *scene, const Motion *one,
-                    const char *what, const Motion *other, const char *beside)
+// A way to draw a scene, and its name in the report.
+typedef struct Drawn {
+    const Motion *motion;
+    const char *name;
+} Drawn;
+
+static bool compare(Stability *stability, const Options *options, const StudyScene *scene, Drawn one, Drawn other)
 {
     float *values = malloc(2 * VALUES * sizeof *values);
     PictureRow *row = picture_add(stability);
     bool has_memory = values && row;
     if (has_memory) {
-        *row = (PictureRow){.scene = scene->name, .beside = beside};
-        snprintf(row->what, sizeof row->what, "%s", what);
-        if (motion_draw(&(MotionPicture){options, scene, one, WIDTH, HEIGHT}, values) &&
-            motion_draw(&(MotionPicture){options, scene, other, WIDTH, HEIGHT}, values + VALUES)) {
+        *row = (PictureRow){.scene = scene->name, .beside = other.name};
+        snprintf(row->what, sizeof row->what, "%s", one.name);
+        if (motion_draw(&(MotionPicture){options, scene, one.motion, WIDTH, HEIGHT}, values) &&
+            motion_draw(&(MotionPicture){options, scene, other.motion, WIDTH, HEIGHT}, values + VALUES)) {
             picture_compare(row, values, values + VALUES);
         }
     }
@@ -99,13 +104,13 @@ static bool compare_scales(Stability *stability, const Options *options, const S
         Motion scaled = motion_none;
         scaled.scale = ldexp(1.0, twos[i]);
         snprintf(what, sizeof what, "times 2^%d", twos[i]);
-        fine = compare(stability, options, scene, &scaled, what, &motion_none, "unscaled");
+        fine = compare(stability, options, scene, (Drawn){&scaled, what}, (Drawn){&motion_none, "unscaled"});
     }
     for (size_t i = 0; fine && i < RT_COUNT_OF(tens); i++) {
         Motion scaled = motion_none;
         scaled.scale = pow(10.0, tens[i]);
         snprintf(what, sizeof what, "times 10^%d", tens[i]);
-        fine = compare(stability, options, scene, &scaled, what, &motion_none, "unscaled");
+        fine = compare(stability, options, scene, (Drawn){&scaled, what}, (Drawn){&motion_none, "unscaled"});
     }
     return fine;
 }
@@ -129,7 +134,7 @@ static bool compare_precisions(Stability *stability, const Options *options, con
     for (size_t i = 0; fine && i < RT_COUNT_OF(places); i++) {
         Motion exact = places[i].motion;
         exact.precision = RT_PRECISION_QUAD;
-        fine = compare(stability, options, scene, &places[i].motion, places[i].what, &exact, "quad");
+        fine = compare(stability, options, scene, (Drawn){&places[i].motion, places[i].what}, (Drawn){&exact, "quad"});
     }
     return fine;
 }

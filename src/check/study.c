@@ -43,12 +43,17 @@ static void point_mean(StudyPoint *point, int runs)
     point->estimate /= runs;
 }
 
-// A rung: the same with several seeds, fewer of them when the budget's stage ends. *expected is how long each took by the
+typedef struct Rung {
+    rt_sampling sampling;
+    rt_precision precision;
+} Rung;
+
+// The same with several seeds, fewer of them when the budget's stage ends. *expected is how long each took by the
 // clock. False when one failed.
-static bool rtlang_point(const Study *study, const StudySettings *settings, const Image *reference,
-                         const rt_sampling *sampling, rt_precision precision, StudyPoint *point,
-                         double *expected)
+static bool rtlang_point(const Study *study, const StudySettings *settings, const Image *reference, const Rung *rung,
+                         StudyPoint *point, double *expected)
 {
+    const rt_sampling *sampling = &rung->sampling;
     double seconds[RUNS_MOST], begin = clock_seconds();
     int most = settings->repeats < RUNS_MOST ? settings->repeats : RUNS_MOST, runs = 0;
 
@@ -59,7 +64,7 @@ static bool rtlang_point(const Study *study, const StudySettings *settings, cons
         RtlangRun run = {.method = RT_METHOD_BACKWARD};
 
         one.seed = 100 + (uint64_t)runs;
-        rtlang_render(study->scene, settings, &one, precision, 1, &run);
+        rtlang_render(study->scene, settings, &one, rung->precision, 1, &run);
         bool fine = run.status == RT_OK && study_compare(&run.image, reference, &metric);
         image_fini(&run.image);
         if (!fine) {
@@ -102,17 +107,17 @@ static bool ladder_climb(Study *study, const StudySettings *settings, const Imag
                          int samples)
 {
     StudyMethod *method = ladder->method;
-    rt_sampling sampling = ladder->sampling;
+    Rung rung = {ladder->sampling, RT_PRECISION_DOUBLE};
     double one;
 
     if (ladder->expected > budget_left(settings->budget)) {
         ladder->ends_before = samples;
         return true;
     }
-    sampling.samples = samples;
+    rung.sampling.samples = samples;
     budget_say(settings->budget, study->scene, ladder->name, samples, study->ladder_top);
-    if (*settings->interrupted != 0 || !rtlang_point(study, settings, reference, &sampling, RT_PRECISION_DOUBLE,
-                                                     &method->points[method->count], &one)) {
+    if (*settings->interrupted != 0 ||
+        !rtlang_point(study, settings, reference, &rung, &method->points[method->count], &one)) {
         return false;
     }
     method->count++;
@@ -179,8 +184,7 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
 
 // The program's own sampler in each precision, where the scene is known to be drawn in it. A rung that would take long
 // is left out: what quadruple precision has to show, the lower ones show.
-static bool reference_methods(Study *study, const StudySettings *settings, const Image *reference,
-                              double quad_seconds)
+static bool reference_methods(Study *study, const StudySettings *settings, const Image *reference, double quad_seconds)
 {
     static const struct {
         const char *name;
@@ -200,10 +204,9 @@ static bool reference_methods(Study *study, const StudySettings *settings, const
         }
         budget_say(settings->budget, study->scene, methods[i].name, (int)i + 1, (int)RT_COUNT_OF(methods));
         for (int samples = 4; samples <= study->ladder_top && 4.0 * seconds < REFERENCE_SECONDS; samples *= 4) {
-            rt_sampling sampling = {.samples = samples};
+            const Rung rung = {{.samples = samples}, methods[i].precision};
             StudyPoint *point = &method->points[method->count];
-            if (*settings->interrupted != 0 ||
-                !rtlang_point(study, &once, reference, &sampling, methods[i].precision, point, &one)) {
+            if (*settings->interrupted != 0 || !rtlang_point(study, &once, reference, &rung, point, &one)) {
                 return false;
             }
             seconds = point->seconds;
@@ -307,7 +310,8 @@ static double distance_of(const RtlangRun *picture, const RtlangRun *reference)
 static void model_find(Study *study, const StudySettings *settings, double *quad_seconds)
 {
     static const rt_sampling one = {0};
-    RtlangRun ours = {.method = RT_METHOD_BACKWARD}, exact = {.method = RT_METHOD_BACKWARD, .is_optional = true}, single = ours, theirs = {.status = RT_OK};
+    RtlangRun ours = {.method = RT_METHOD_BACKWARD}, exact = {.method = RT_METHOD_BACKWARD, .is_optional = true},
+              single = ours, theirs = {.status = RT_OK};
     PovrayRun povray = {.name = "model", .threads = 1};
 
     study->model = (double)NAN;
@@ -325,8 +329,8 @@ static void model_find(Study *study, const StudySettings *settings, double *quad
         budget_leave_out(settings->budget, "arithmetic in quadruple precision");
     }
     plain_text(study->arithmetic_why, exact.status == RT_CANCELLED ? "the budget left it out"
-                                      : exact.fault[0] != '\0'    ? exact.fault
-                                                                  : "built without the reference kernels");
+                                      : exact.fault[0] != '\0'     ? exact.fault
+                                                                   : "built without the reference kernels");
     image_fini(&ours.image);
     image_fini(&theirs.image);
     image_fini(&exact.image);
@@ -334,7 +338,8 @@ static void model_find(Study *study, const StudySettings *settings, double *quad
 }
 
 // What a greater depth changes, where some rays were cut.
-static void depth_find(Study *study, const StudySettings *settings, const rt_sampling *sampling, const RtlangRun *reference)
+static void depth_find(Study *study, const StudySettings *settings, const rt_sampling *sampling,
+                       const RtlangRun *reference)
 {
     rt_sampling deeper = *sampling;
     StudyMetric metric;
@@ -365,9 +370,10 @@ static bool reference_make(Study *study, const StudySettings *settings, rt_sampl
     budget_say(settings->budget, study->scene, "the reference", 1, 2);
     budget_stage(settings->budget, settings->povray ? 0.1 : 0.2);
     // Not the sampler that is studied.
-    *sampling = (rt_sampling){.sampler = "halton",
-                              .samples = asked > 0 ? asked : study_reference_samples(study->scene, settings, most, "the reference"),
-                              .seed = 1};
+    *sampling = (rt_sampling){
+        .sampler = "halton",
+        .samples = asked > 0 ? asked : study_reference_samples(study->scene, settings, most, "the reference"),
+        .seed = 1};
     *reference = (RtlangRun){.method = RT_METHOD_BACKWARD};
     rtlang_render(study->scene, settings, sampling, RT_PRECISION_DOUBLE, 0, reference);
     if (reference->status != RT_OK) {

@@ -130,8 +130,8 @@ static rt_status run_one(Options *options, Voice *voice, bool *wrote)
     return status;
 }
 
-// The frames of a scene. While one differs from the one before it by camera and lights alone, the session stays. A scene
-// that is wrong in one frame is not tried in the next.
+// The frames of a scene. While one differs from the one before it by camera and lights alone, the session stays. A
+// scene that is wrong in one frame is not tried in the next.
 static rt_status run_frames(Options *options, Voice *voice, bool *wrote)
 {
     const Frames *frames = &options->frames;
@@ -235,7 +235,7 @@ static OptionsResult read_command_line(int argc, char **argv, Options *options, 
     rt_session *session = open_session(options, voice);
     *status = session ? RT_OK : RT_FAULT_LIMIT;
     if (session && is_povray) {
-        result = povray_parse(session, argc, argv, povray, options, voice, status);
+        result = povray_parse(session, (CommandLine){argc, argv}, povray, options, voice, status);
     } else if (session && result == OPTIONS_NO_MEMORY) {
         *status = rt_report(session, "E0602", "out of memory", NULL);
     } else if (session && result == OPTIONS_WRONG) {

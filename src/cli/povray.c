@@ -195,8 +195,8 @@ static void follow_picture(const PovraySettings *settings, Options *options)
 static rt_status follow_lists(rt_session *session, const PovraySettings *settings, Options *options)
 {
     size_t libraries = settings->library_count - settings->usual_count;
-    const char **paths = realloc(options->include_paths,
-                                 ((size_t)options->include_path_count + libraries + 1) * sizeof *paths);
+    const char **paths =
+        realloc(options->include_paths, ((size_t)options->include_path_count + libraries + 1) * sizeof *paths);
     options->include_paths = paths ? paths : options->include_paths;
     const char **declarations =
         realloc(options->declarations,
@@ -245,7 +245,8 @@ static rt_status open_files(rt_session *session, const Povray *povray, Voice *vo
 // Create_Ini; its name is the scene's where none was said.
 static rt_status write_ini(rt_session *session, const Povray *povray)
 {
-    const char *name = povray->settings.create_ini, *scene = base_name(povray->settings.input), *dot = strrchr(scene, '.');
+    const char *name = povray->settings.create_ini, *scene = base_name(povray->settings.input),
+               *dot = strrchr(scene, '.');
     char path[PATH_MAX], message[COMPLAINT_SIZE];
     if (!name) {
         return RT_OK;
@@ -327,9 +328,11 @@ static bool asks_for_help(int argc, char **argv)
     return argc == 2 && choice_find(argv[1], words) >= 0;
 }
 
-OptionsResult povray_parse(rt_session *session, int argc, char **argv, Povray *povray, Options *options, Voice *voice,
+OptionsResult povray_parse(rt_session *session, CommandLine line, Povray *povray, Options *options, Voice *voice,
                            rt_status *status)
 {
+    const int argc = line.argc;
+    char **argv = line.argv;
     int own_count = 1;
     size_t count = 0;
     char **words = calloc(2 * (size_t)argc + 2, sizeof *words), **own = words + argc + 1;
@@ -358,10 +361,12 @@ OptionsResult povray_parse(rt_session *session, int argc, char **argv, Povray *p
     options->is_povray = true;
     rt_set_format(session, options->format);
     if (result == OPTIONS_WRONG) {
-        *status = rt_report(session, "E0703", options->reading.complaint, options->reading.advice[0] ? options->reading.advice : NULL);
+        *status = rt_report(session, "E0703", options->reading.complaint,
+                            options->reading.advice[0] ? options->reading.advice : NULL);
     }
     if (result == OPTIONS_GO && options->rerun) {
-        *status = rt_report(session, "E0703", "`--rerun` does not go with POV-Ray's options", "its picture has its own");
+        *status =
+            rt_report(session, "E0703", "`--rerun` does not go with POV-Ray's options", "its picture has its own");
     } else if (result == OPTIONS_GO) {
         *status = povray_read(session, &povray->settings, words, count);
         *status = *status ? *status : follow(session, povray, options, voice);

@@ -24,8 +24,13 @@ typedef struct Povray {
 // with .ini, or is KEY=VALUE.
 bool povray_is_meant(int argc, char **argv);
 
+typedef struct CommandLine {
+    int argc;
+    char **argv;
+} CommandLine;
+
 // Reads it into the options and opens the files of the voice. *status says what went wrong, which has been reported.
-OptionsResult povray_parse(rt_session *session, int argc, char **argv, Povray *povray, Options *options, Voice *voice,
+OptionsResult povray_parse(rt_session *session, CommandLine line, Povray *povray, Options *options, Voice *voice,
                            rt_status *status);
 void povray_fini(Povray *povray);
 

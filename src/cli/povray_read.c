@@ -1,5 +1,5 @@
 // A line holds switches, names of files, or at last one `Key = value`, as POV-Ray's do; a word of the command line is
-// read as a line is. A file's lines before its first [section] always count, those of a section where it is asked for.
+// read as a line is. A file's lines before its first [section] always count, those of a section where it is selected.
 //
 // SPDX-License-Identifier: MIT
 #include "cli/povray_read.h"

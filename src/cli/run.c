@@ -16,6 +16,7 @@
 #include "cli/provenance.h"
 #include "cli/share.h"
 #include "cli/summary.h"
+#include "rtlang/sharing.h"
 #include "watch/watch.h"
 
 enum { OUTPUT_NAME = PATH_MAX + 16 };

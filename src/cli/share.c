@@ -9,6 +9,7 @@
 
 #include "base/attributes.h"
 #include "cli/provenance.h"
+#include "rtlang/sharing.h"
 
 char *share_command(int argc, char **argv)
 {
@@ -115,7 +116,7 @@ static rt_status read_command(rt_session *session, Options *options, Options *gi
     words[0] = (char *)"rtlang";
     int count = 1 + provenance_split(copy, words + 1);
     if (povray_is_meant(count, words)) {
-        *result = povray_parse(session, count, words, povray, options, voice, &status);
+        *result = povray_parse(session, (CommandLine){count, words}, povray, options, voice, &status);
     } else {
         *result = options_parse(count, words, options);
     }

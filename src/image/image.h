@@ -84,7 +84,7 @@ bool image_path_is_stdout(const char *path);
 // Whether a path can be written at this depth, asked before a long run: the format by its ending.
 ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *error) RT_MUST_CHECK;
 
-// The depth a path gets when none is asked for: float for formats that hold nothing else, such as EXR, else 8 bit.
+// The depth a path gets when none is requested: float for formats that hold nothing else, such as EXR, else 8 bit.
 ImageDepth image_path_depth(const char *path);
 
 // Whether the format that a path's ending names holds channels of any name: EXR.

@@ -1,4 +1,4 @@
-// Walks over the chunks of a PNG file (PNG 1.2, 3.2) or the attributes of an EXR header up to the one that is asked for.
+// Walks over the chunks of a PNG file (PNG 1.2, 3.2) or the attributes of an EXR header up to the requested one.
 //
 // SPDX-License-Identifier: MIT
 #include "image/note_read.h"

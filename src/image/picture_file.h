@@ -42,7 +42,7 @@ typedef struct PictureLimit {
     const PictureFlag *cancel; // reading gives up, as if it had failed, when this is set; NULL: never
 } PictureLimit;
 
-// Room for the samples of a picture whose size is set, judged before memory is asked for.
+// Room for the samples of a picture whose size is set, checked before memory is allocated.
 ImageStatus picture_file_allocate(PictureFile *file, const PictureLimit *limit) RT_MUST_CHECK;
 void picture_file_fini(PictureFile *file); // releases the samples
 

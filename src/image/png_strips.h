@@ -1,4 +1,4 @@
-// The pixels of a PNG file: rows in strips that are encoded, filtered and compressed side by side and put together to
+// The pixels of a PNG file: rows in strips that are encoded, filtered and compressed side by side and joined to
 // one zlib stream (RFC 1950). The stream does not depend on the number of threads.
 //
 // SPDX-License-Identifier: MIT

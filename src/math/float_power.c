@@ -3,7 +3,7 @@
 // With c that middle and v = 2^k c (1 + t), |t| <= 2^-8, v^e is 2^(k e) c^e (1 + t)^e. Six terms of the series leave
 // less than 2^-48 for exponents up to 4, all roundings together less than 2^-50. Where both ends of that doubt, taken
 // wider, round to the same float, so does pow's result, which is right to one unit of double precision; elsewhere, once
-// in some 2^17 values, pow is asked.
+// in some 2^17 values, pow is called.
 //
 // SPDX-License-Identifier: MIT
 #include "math/float_power.h"

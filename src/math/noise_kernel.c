@@ -403,7 +403,7 @@ static void vectors_at(const Noise *noise, unsigned count, const Vec3 *points, V
 
 // ---- sums
 
-// The next four octaves: where they are asked for and what they count. Lanes behind the last ones are of no use.
+// The next four octaves: where they are evaluated and how much they count. Lanes behind the last ones are of no use.
 typedef struct OctaveWalk {
     double scale, weight;
 } OctaveWalk;

@@ -44,7 +44,7 @@ static uint64_t part_crossings_most(const Primitive *primitive)
         return (uint64_t)1 << 24; // its accuracy is no finer
     }
     Primitive member = *primitive;
-    member.node = 0; // of one alone fewer are asked for at a time
+    member.node = 0; // of one alone fewer are requested at a time
     return 2 * (uint64_t)primitive_interval_most(&member) + 1;
 }
 

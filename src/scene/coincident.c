@@ -2,7 +2,7 @@
 // composite is looked up among those that stand alone.
 //
 // A shape becomes a key, equal for equal surfaces, whichever list of the scene it stands in. The table holds hashes
-// beside shape numbers, so that the scene's records are read in order but for those that are alike; its slots are asked
+// beside shape numbers, so that the scene's records are read in order but for those that are alike; its slots are read
 // for some shapes ahead, because waiting for memory is nearly all that this would do.
 //
 // SPDX-License-Identifier: MIT
@@ -396,7 +396,7 @@ static void visit(const Coincidences *search, size_t item, uint32_t hash, DiagSi
 
 enum {
     BITS_PER_SPHERE = 16, // at least: one sphere in 16 is looked up in vain
-    BLOOM_AHEAD = 64,     // spheres whose bits memory is asked for at once
+    BLOOM_AHEAD = 64,     // spheres whose bits memory is prefetched at once
 };
 
 typedef struct BloomFilter {
@@ -426,7 +426,7 @@ static inline bool bit_get(const uint64_t *bits, uint32_t place)
     return bits[place / 64] >> place % 64 & 1;
 }
 
-// Places are computed, and memory is asked for them, some spheres ahead.
+// Places are computed, and memory is prefetched for them, some spheres ahead.
 RT_ALWAYS_INLINE void bloom_some(const BloomFilter *bloom, size_t begin, size_t end, bool is_shared)
 {
     const Sphere *spheres = bloom->search->scene->spheres.items;

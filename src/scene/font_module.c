@@ -160,7 +160,7 @@ static bool table_head(FT_Face face, uint32_t index, FT_Byte bytes[10])
 }
 
 // As POV-Ray has it. Measured: where a letter reaches left of its box by the table, also by a point that only bends a
-// curve ("u" of cyrvetic.ttf, "*" and "@" of timrom.ttf), it stands as far to the right; of one that is put together
+// curve ("u" of cyrvetic.ttf, "*" and "@" of timrom.ttf), it stands as far to the right; of one that is combined
 // (letters with accents, in most fonts) the table's box holds the origin. Its box is that of all points and of the
 // table, which may be more ("j" of timrom.ttf).
 static void place_at_bearing(FT_Face face, FT_Pos left, FontGlyph *glyph)
@@ -238,18 +238,23 @@ static double unit_of(FT_Pos twice)
     return 0.5 * (double)twice;
 }
 
-static int draw_piece(Walk *walk, double x1, double y1, double x2, double y2, double x3, double y3)
+// A place of an outline.
+typedef struct Place {
+    double x, y;
+} Place;
+
+static int draw_piece(Walk *walk, Place first, Place second, Place end)
 {
-    const double points[8] = {walk->at[0], walk->at[1], x1, y1, x2, y2, x3, y3};
-    walk->at[0] = x3;
-    walk->at[1] = y3;
+    const double points[8] = {walk->at[0], walk->at[1], first.x, first.y, second.x, second.y, end.x, end.y};
+    walk->at[0] = end.x;
+    walk->at[1] = end.y;
     return walk->pen(walk->client, points) ? 0 : 1;
 }
 
 static int draw_line(Walk *walk, double x, double y)
 {
     double dx = (x - walk->at[0]) / 3.0, dy = (y - walk->at[1]) / 3.0;
-    return draw_piece(walk, walk->at[0] + dx, walk->at[1] + dy, x - dx, y - dy, x, y);
+    return draw_piece(walk, (Place){walk->at[0] + dx, walk->at[1] + dy}, (Place){x - dx, y - dy}, (Place){x, y});
 }
 
 static int end_curve(Walk *walk)
@@ -295,14 +300,15 @@ static int conic_to(const FT_Vector *control, const FT_Vector *to, void *client)
         x3 = 0.5 * (x + x3);
         y3 = 0.5 * (y + y3);
     }
-    return draw_piece(walk, walk->at[0] + 2.0 / 3.0 * (x - walk->at[0]), walk->at[1] + 2.0 / 3.0 * (y - walk->at[1]),
-                      x3 + 2.0 / 3.0 * (x - x3), y3 + 2.0 / 3.0 * (y - y3), x3, y3);
+    Place first = {walk->at[0] + 2.0 / 3.0 * (x - walk->at[0]), walk->at[1] + 2.0 / 3.0 * (y - walk->at[1])};
+    Place second = {x3 + 2.0 / 3.0 * (x - x3), y3 + 2.0 / 3.0 * (y - y3)};
+    return draw_piece(walk, first, second, (Place){x3, y3});
 }
 
 static int cubic_to(const FT_Vector *first, const FT_Vector *second, const FT_Vector *to, void *client)
 {
-    return draw_piece(client, unit_of(first->x), unit_of(first->y), unit_of(second->x), unit_of(second->y),
-                      unit_of(to->x), unit_of(to->y));
+    return draw_piece(client, (Place){unit_of(first->x), unit_of(first->y)},
+                      (Place){unit_of(second->x), unit_of(second->y)}, (Place){unit_of(to->x), unit_of(to->y)});
 }
 
 static bool font_draw(FontFace *font, FontPen pen, void *client)

@@ -83,7 +83,7 @@ typedef struct Place {
 
 enum {
     HALVINGS_MOST = 64, // more leave nothing of a double
-    ASKED_EVERY = 1024, // so often it is asked whether somebody wants the answer
+    ASKED_EVERY = 1024, // so often it checks whether the run was cancelled
 };
 
 static Place place_at(const IsosurfaceLine *line, double t, double sign)

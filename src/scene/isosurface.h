@@ -60,7 +60,7 @@ double isosurface_value(const double *list, const FormulaHost *host, Vec3 p);
 // Whether a point is in its container, and the function below the threshold there.
 bool isosurface_holds(const double *list, const FormulaHost *host, Vec3 p);
 
-// What a line is asked with. A step of `accuracy` is `step` of its parameter, and one of 1 in it is `rise` of the
+// What a line is tested with. A step of `accuracy` is `step` of its parameter, and one of 1 in it is `rise` of the
 // function at most.
 typedef struct IsosurfaceLine {
     const double *list;

@@ -82,7 +82,7 @@ typedef struct Normal {
     Transform to_world; // from the pattern's space; of an entry: to the space of the pattern it lies along
     Pattern pattern;
     double amount;
-    double accuracy;  // > 0: how far from the point the height is asked for
+    double accuracy;  // > 0: how far from the point the height is evaluated
     uint32_t slopes;  // the first of Scene.slope_entries, or RECORD_NONE: the pattern's value is the height
     uint32_t entries; // the first of Scene.normal_entries, or RECORD_NONE
     uint32_t flags;   // NORMAL_...

@@ -1,4 +1,4 @@
-// A piece is asked by the values that the line's form has at its control points, which are the Bernstein coefficients
+// A piece is tested by the values that the line's form has at its control points, which are the Bernstein coefficients
 // of the form along it: where all have one sign there is no root; else the piece is cut where the form has its extrema,
 // and each part on which it changes its sign has one root. Signs at the ends of pieces decide how many there are, so
 // that the number is even whatever rounding does in between.
@@ -369,7 +369,7 @@ static void nearest_of(const Piece *piece, OutlinePoint p, const double *places,
 }
 
 // The parameter of the nearest point of a curved piece, where the point lies nearly on it: then a point of the piece
-// that has one coordinate with it is near. That along which the piece is longer is asked first, and alone where what it
+// that has one coordinate with it is near. That along which the piece is longer goes first, and alone where what it
 // finds is as near as rounding.
 static double curve_nearest(const Piece *piece, OutlinePoint p)
 {

@@ -11,7 +11,7 @@
 
 enum {
     HALVINGS_MOST = 56, // of both sides together; more are not asked for
-    ASKED_EVERY = 1024, // so often it is asked whether somebody wants the answer
+    ASKED_EVERY = 1024, // so often it checks whether the run was cancelled
 };
 
 // Of POV-Ray, measured: how far behind the container, and behind the start, the first point lies at least, in lengths

@@ -44,7 +44,7 @@ static inline const FormulaStep *parametric_steps(const double *list)
 // The box of its container.
 void parametric_bounds(const Parametric *surface, Vec3 *low, Vec3 *high);
 
-// What a line is asked with, in the surface's own space.
+// What a line is tested with, in the surface's own space.
 typedef struct ParametricLine {
     const double *list;
     const FormulaHost *host;

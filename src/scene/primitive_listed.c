@@ -63,7 +63,7 @@ static bool blob_holds(const Primitive *primitive, Vec3 p)
     return blob_field(primitive->list.items, p) > primitive->list.items[0];
 }
 
-// Alone it is asked for the first few only.
+// Alone it searches for the first few only.
 static uint32_t blob_part_intervals(const Primitive *primitive)
 {
     return primitive->node == NODE_NONE ? 4 : blob_interval_most(primitive->list.items);
@@ -76,7 +76,7 @@ static bool surface_holds(const Primitive *primitive, Vec3 p)
     return isosurface_holds(primitive->list.items, primitive->host, p);
 }
 
-// Alone it is asked for the first surface only.
+// Alone it searches for the first surface only.
 static uint32_t isosurface_intervals(const Primitive *primitive)
 {
     return primitive->node == NODE_NONE ? 2 : ISOSURFACE_ROOTS_MOST + 1;
@@ -283,7 +283,7 @@ static bool julia_part_holds(const Primitive *primitive, Vec3 p)
     return julia_holds(julia_of(primitive->list.items), p, &reach);
 }
 
-// Alone it is asked for the first surface only.
+// Alone it searches for the first surface only.
 static uint32_t julia_part_intervals(const Primitive *primitive)
 {
     return primitive->node == NODE_NONE ? 2 : JULIA_INTERVALS_MOST + 2;

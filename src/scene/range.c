@@ -86,7 +86,7 @@ void scene_keep_survey(Scene *scene, int threads)
 
 // ---- the exact scale
 
-// What is asked of each shape: its greatest half size, where it stands, and what to call it.
+// What is known of each shape: its greatest half size, where it stands, and what to call it.
 typedef struct Extent {
     double size;
     Vec3 place;

@@ -20,7 +20,7 @@ enum { RANGE_LEAST = -480, RANGE_END = 511 };
 // u, rounded down to a power of two.
 #define RANGE_RADII 0x1p46
 
-// What is asked of all spheres, by one look at each that has not been looked at yet.
+// Totals over all spheres, by one look at each that has not been looked at yet.
 void scene_survey_spheres(const Scene *scene, int threads, SphereSurvey *survey);
 // The same, and the scene keeps it, until spheres are changed.
 void scene_keep_survey(Scene *scene, int threads);

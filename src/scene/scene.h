@@ -158,7 +158,7 @@ typedef struct Settings {
     double version; // the language version in force at the end, SCENE_VERSION_UNSAID if none was given
 } Settings;
 
-// What is asked of all spheres.
+// Totals over all spheres.
 typedef struct SphereSurvey {
     double least_radius, greatest_radius, greatest_place;
     bool is_valid; // all numbers are finite, all radii > 0, all materials there; else the rest means nothing

@@ -1,4 +1,4 @@
-// A primitive is asked in its own space, a composite by its tree, from the root down.
+// A primitive is tested in its own space, a composite by its tree, from the root down.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/within.h"

@@ -1,4 +1,4 @@
-// Ranks that share the tiles of a picture: rank 0 deals them as they are asked for, gathers what they left, and gives
+// Ranks that share the tiles of a picture: rank 0 deals them on request, gathers what they left, and gives
 // it to all where they decide by it.
 //
 // One thread of each rank talks to the others, by a module that knows how (share/mpi_module.h), while the others trace.

@@ -50,9 +50,11 @@ typedef struct Line {
 
 // ---- stretches
 
-static void add_stretch(Line *line, const BlobComponent *component, Section section, Vec3 o, Vec3 d, double low,
+// `own`: the ray in the component's space.
+static void add_stretch(Line *line, const BlobComponent *component, Section section, const Ray *own, double low,
                         double high)
 {
+    Vec3 o = own->origin, d = own->direction;
     if (section == SECTION_ROD) {
         o.z = d.z = 0.0;
     } else if (section == SECTION_TOP) {
@@ -82,23 +84,24 @@ static void add_component(Line *line, const BlobComponent *component)
               p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2]};
     Vec3 d = {v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0], v.x * m[0][1] + v.y * m[1][1] + v.z * m[2][1],
               v.x * m[0][2] + v.y * m[1][2] + v.z * m[2][2]};
+    const Ray own = {o, d};
     const double far = (double)INFINITY;
     if (component->is_rod == 0.0) {
-        add_stretch(line, component, SECTION_BALL, o, d, -far, far);
+        add_stretch(line, component, SECTION_BALL, &own, -far, far);
         return;
     }
     double bottom = -o.z / d.z, top = (component->height - o.z) / d.z;
     if (d.z == 0.0) {
         Section section = o.z <= 0.0 ? SECTION_BALL : o.z < component->height ? SECTION_ROD : SECTION_TOP;
-        add_stretch(line, component, section, o, d, -far, far);
+        add_stretch(line, component, section, &own, -far, far);
     } else if (d.z > 0.0) {
-        add_stretch(line, component, SECTION_BALL, o, d, -far, bottom);
-        add_stretch(line, component, SECTION_ROD, o, d, bottom, top);
-        add_stretch(line, component, SECTION_TOP, o, d, top, far);
+        add_stretch(line, component, SECTION_BALL, &own, -far, bottom);
+        add_stretch(line, component, SECTION_ROD, &own, bottom, top);
+        add_stretch(line, component, SECTION_TOP, &own, top, far);
     } else {
-        add_stretch(line, component, SECTION_TOP, o, d, -far, top);
-        add_stretch(line, component, SECTION_ROD, o, d, top, bottom);
-        add_stretch(line, component, SECTION_BALL, o, d, bottom, far);
+        add_stretch(line, component, SECTION_TOP, &own, -far, top);
+        add_stretch(line, component, SECTION_ROD, &own, top, bottom);
+        add_stretch(line, component, SECTION_BALL, &own, bottom, far);
     }
 }
 

@@ -39,6 +39,14 @@ static bool is_quadric(const PreparedPrimitive *primitive)
 
 // ---- boxes
 
+// A composite whose nodes are boxed: `inner` the box of each, `next` room for others.
+typedef struct Boxing {
+    const ShapeTable *table;
+    const CsgTree *csg;
+    const Bounds *surfaces; // of each primitive
+    Bounds *inner, *next;
+} Boxing;
+
 typedef struct Range {
     double low, high;
 } Range;
@@ -224,9 +232,11 @@ static void take(const TreeNode *node, Bounds *bounds, Bounds child)
 
 // Takes from the boxes of all nodes what their children leave. What is seen within a node lies in the box of the one
 // around it.
-static void contract_nodes(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, const Frame *frame,
-                           Bounds *inner, Bounds *next)
+static void contract_nodes(const Boxing *boxing, const Frame *frame)
 {
+    const ShapeTable *table = boxing->table;
+    const CsgTree *csg = boxing->csg;
+    Bounds *inner = boxing->inner, *next = boxing->next;
     uint32_t first = csg->first_node, end = first + csg->node_count;
     for (uint32_t i = first; i < end; i++) {
         const TreeNode *node = &table->nodes[i];
@@ -236,7 +246,7 @@ static void contract_nodes(const ShapeTable *table, const CsgTree *csg, const Bo
     for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count; i++) {
         const PreparedPrimitive *primitive = &table->primitives[i];
         Bounds box = inner[primitive->node];
-        primitive_contract(primitive, &surfaces[i], frame, &box);
+        primitive_contract(primitive, &boxing->surfaces[i], frame, &box);
         take(&table->nodes[primitive->node], &next[primitive->node], box);
     }
     for (uint32_t i = end; i-- > first;) {
@@ -257,15 +267,14 @@ static Bounds with_slack(const Bounds *box)
 }
 
 // Makes the box in the scene's space of what is seen smaller, if it can.
-static void measure_in(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, const Frame *frame,
-                       Bounds *inner, Bounds *next, Bounds *bounds)
+static void measure_in(const Boxing *boxing, const Frame *frame, Bounds *bounds)
 {
-    const Bounds *box = &inner[csg->first_node];
-    for (uint32_t i = 0; i < csg->node_count; i++) {
-        inner[csg->first_node + i] = BOUNDS_ALL;
+    Bounds *box = &boxing->inner[boxing->csg->first_node];
+    for (uint32_t i = 0; i < boxing->csg->node_count; i++) {
+        box[i] = BOUNDS_ALL;
     }
     for (int round = 0, more = ROUNDS_MORE; round < ROUNDS_MOST && more > 0; round++) {
-        contract_nodes(table, csg, surfaces, frame, inner, next);
+        contract_nodes(boxing, frame);
         more -= bounds_are_finite(*box);
     }
     if (!bounds_are_finite(*box) || bounds_are_empty(*box)) {
@@ -276,16 +285,16 @@ static void measure_in(const ShapeTable *table, const CsgTree *csg, const Bounds
 }
 
 // In the spaces of its quadrics, until there is a finite box.
-static void measure_in_frames(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *inner,
-                              Bounds *next, Bounds *bounds)
+static void measure_in_frames(const Boxing *boxing, Bounds *bounds)
 {
+    const CsgTree *csg = boxing->csg;
     int tried = 0;
     for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count && tried < FRAMES_MOST;
          i++) {
-        const PreparedPrimitive *primitive = &table->primitives[i];
-        if (!bounds_are_finite(*bounds) && is_quadric(primitive) && !bounds_are_finite(surfaces[i])) {
+        const PreparedPrimitive *primitive = &boxing->table->primitives[i];
+        if (!bounds_are_finite(*bounds) && is_quadric(primitive) && !bounds_are_finite(boxing->surfaces[i])) {
             Frame frame = {primitive->centre, primitive->to_object, primitive->to_world};
-            measure_in(table, csg, surfaces, &frame, inner, next, bounds);
+            measure_in(boxing, &frame, bounds);
             tried++;
         }
     }
@@ -295,8 +304,9 @@ Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
                   Bounds *next)
 {
     const Linear same = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
-    Frame frame = {vec3(0.0, 0.0, 0.0), same, same};
-    measure_in(table, csg, surfaces, &frame, inner, next, &bounds);
+    const Frame frame = {vec3(0.0, 0.0, 0.0), same, same};
+    const Boxing boxing = {table, csg, surfaces, inner, next};
+    measure_in(&boxing, &frame, &bounds);
     for (uint32_t i = csg->first_node; i < csg->first_node + csg->node_count; i++) {
         bool is_known = bounds_are_finite(bounds) && bounds_are_finite(inner[i]) && !bounds_are_empty(inner[i]);
         inner[i] = is_known ? with_slack(&inner[i]) : BOUNDS_ALL;
@@ -304,7 +314,7 @@ Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
     if (bounds_are_finite(bounds)) {
         return bounds;
     }
-    measure_in_frames(table, csg, surfaces, inner, next, &bounds);
+    measure_in_frames(&boxing, &bounds);
     for (uint32_t i = csg->first_node; i < csg->first_node + csg->node_count; i++) {
         inner[i] = BOUNDS_ALL;
     }

@@ -173,20 +173,15 @@ static bool crossing_is_apart(const CsgTraversal *p, Crossing *a, Crossing *b)
            b->t - crossing_error(p, b) > a->t + crossing_error(p, a);
 }
 
-static void traversal_add(CsgTraversal *p, uint32_t index, double t, double length, uint8_t side, bool leaves,
-                          bool is_film)
+// Adds a crossing with a side of a primitive, whose surface it has where that can be seen.
+static void traversal_add(CsgTraversal *p, Crossing crossing)
 {
-    const PreparedPrimitive *primitive = traversal_primitive(p, index);
-    bool has_surface = !(primitive->flags & PRIMITIVE_UNSEEN) && !primitive_side_is_unseen(primitive, side);
-    p->first_surface = has_surface && t < p->first_surface ? t : p->first_surface;
-    p->crossings[p->count++] = (Crossing){.t = t,
-                                          .error = length,
-                                          .solid = index,
-                                          .face = MESH_NO_FACE,
-                                          .side = side,
-                                          .leaves = leaves,
-                                          .is_film = is_film,
-                                          .has_surface = has_surface};
+    const PreparedPrimitive *primitive = traversal_primitive(p, crossing.solid);
+    crossing.face = MESH_NO_FACE;
+    crossing.has_surface =
+        !(primitive->flags & PRIMITIVE_UNSEEN) && !primitive_side_is_unseen(primitive, crossing.side);
+    p->first_surface = crossing.has_surface && crossing.t < p->first_surface ? crossing.t : p->first_surface;
+    p->crossings[p->count++] = crossing;
 }
 
 static void traversal_flat(CsgTraversal *p, uint32_t index, RayStart start)
@@ -201,7 +196,7 @@ static void traversal_flat(CsgTraversal *p, uint32_t index, RayStart start)
     }
     if (!starts_beside(p->table, start, primitive) ||
         t > primitive_crossing_error(primitive, p->ray, object, t, 0) + p->start_error) {
-        traversal_add(p, index, t, (double)INFINITY, 0, false, true);
+        traversal_add(p, (Crossing){.t = t, .error = (double)INFINITY, .solid = index, .is_film = true});
     }
 }
 
@@ -238,10 +233,20 @@ RT_ALWAYS_INLINE bool traversal_interval(CsgTraversal *p, uint32_t index, const 
     bool is_inside = (is_start && primitive_is_convex(traversal_primitive(p, index))) ||
                      traversal_is_past(p, index, interval->enter, interval->enter_side, room, is_beside);
     if (!is_inside) {
-        traversal_add(p, index, interval->enter, room, interval->enter_side, is_film, is_film);
+        traversal_add(p, (Crossing){.t = interval->enter,
+                                    .error = room,
+                                    .solid = index,
+                                    .side = interval->enter_side,
+                                    .leaves = is_film,
+                                    .is_film = is_film});
     }
     if (interval->leave < (double)INFINITY) {
-        traversal_add(p, index, interval->leave, room, interval->leave_side, !is_film, is_film);
+        traversal_add(p, (Crossing){.t = interval->leave,
+                                    .error = room,
+                                    .solid = index,
+                                    .side = interval->leave_side,
+                                    .leaves = !is_film,
+                                    .is_film = is_film});
     }
     return is_inside && !is_film;
 }
@@ -292,7 +297,11 @@ static void traversal_add_face(CsgTraversal *p, uint32_t index, double t, uint32
     const PreparedPrimitive *primitive = traversal_primitive(p, index);
     MeshCursor *cursor = &p->cursors[primitive->mesh.cursor];
     bool is_film = primitive_is_flat(primitive);
-    traversal_add(p, index, t, (double)INFINITY, 0, !is_film && cursor->is_inside, is_film);
+    traversal_add(p, (Crossing){.t = t,
+                                .error = (double)INFINITY,
+                                .solid = index,
+                                .leaves = !is_film && cursor->is_inside,
+                                .is_film = is_film});
     Crossing *added = &p->crossings[p->count - 1];
     added->face = face;
     added->error = added->bound = error;
@@ -399,7 +408,8 @@ static double field_water(const CsgTraversal *p, uint32_t index, double enter, d
     const Ray *object = &p->objects[index];
     double t = (field->water - object->origin.y) / object->direction.y;
     Vec3 point = vec3_add_scaled(object->origin, t, object->direction);
-    bool is_met = t > enter && t < leave && mesh_field_is_over(field, point) && mesh_field_height(field, point) < field->water;
+    bool is_met =
+        t > enter && t < leave && mesh_field_is_over(field, point) && mesh_field_height(field, point) < field->water;
     return is_met && !side_is_past(p, index, t, 1) ? t : (double)INFINITY;
 }
 

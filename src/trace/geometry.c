@@ -188,8 +188,8 @@ static bool kept_take_spheres(GeometryKept *kept, Follow *follow)
         return true;
     }
     follow->is_changed = true;
-    if (!has_more && sphere_table_refit(spheres, &kept->refit, follow->scene, follow->exponent, changed, follow->rays,
-                                        follow->threads)) {
+    const SphereMoves moves = {changed, follow->rays, follow->threads};
+    if (!has_more && sphere_table_refit(spheres, &kept->refit, follow->scene, follow->exponent, &moves)) {
         kept->refits++;
         return true;
     }

@@ -60,15 +60,24 @@ static bool basis_take(Basis *basis, const HalfSpace *taken)
     return true;
 }
 
-// The half space that the corner is farthest outside of; NULL when it is within `slack` of all.
-static const HalfSpace *find_outside(const Basis *basis, const HalfSpace *spaces, uint32_t count, double slack)
+// Some half spaces; what is farther out than `far` does not matter.
+typedef struct Polyhedron {
+    const HalfSpace *spaces;
+    uint32_t count;
+    double far;
+} Polyhedron;
+
+// The half space that the corner is farthest outside of; NULL when it is nearly within all.
+static const HalfSpace *find_outside(const Basis *basis, const Polyhedron *polyhedron)
 {
     const HalfSpace *found = NULL;
-    for (uint32_t i = 0; i < count; i++) {
-        double out = vec3_dot(spaces[i].normal, basis->corner) - spaces[i].distance;
+    double slack = 0x1p-40 * polyhedron->far;
+    for (uint32_t i = 0; i < polyhedron->count; i++) {
+        const HalfSpace *space = &polyhedron->spaces[i];
+        double out = vec3_dot(space->normal, basis->corner) - space->distance;
         if (out > slack) {
             slack = out;
-            found = &spaces[i];
+            found = space;
         }
     }
     return found;
@@ -89,21 +98,21 @@ static bool basis_proves(const Basis *basis, Vec3 e, double *reach, double *size
     return sum <= 0x1p12 && vec3_sum_abs(e) <= 0x1p-36; // rounding adds less than 2^-38 to each
 }
 
-static bool find_reach(const HalfSpace *spaces, uint32_t count, double far, int axis, double sign, double *reach,
-                       double *size)
+static bool find_reach(const Polyhedron *polyhedron, int axis, double sign, double *reach, double *size)
 {
     const uint32_t steps_most = 64; // a polyhedron of hundreds of faces takes about ten
     Vec3 e = vec3(axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0);
     Basis basis = {.is_far = {true, true, true}};
     for (int k = 0; k < BASIS; k++) {
-        basis.space[k] = (HalfSpace){vec3(k == 0 ? sign : 0.0, k == 1 ? sign : 0.0, k == 2 ? sign : 0.0), far};
+        basis.space[k] =
+            (HalfSpace){vec3(k == 0 ? sign : 0.0, k == 1 ? sign : 0.0, k == 2 ? sign : 0.0), polyhedron->far};
         basis.weight[k] = k == axis;
     }
     for (uint32_t step = 0; step < steps_most; step++) {
         if (!basis_measure(&basis)) {
             return false;
         }
-        const HalfSpace *outside = find_outside(&basis, spaces, count, 0x1p-40 * far);
+        const HalfSpace *outside = find_outside(&basis, polyhedron);
         if (!outside) {
             break; // later steps would but move the box a little inward
         }
@@ -123,10 +132,11 @@ bool half_spaces_bounds(const HalfSpace *spaces, uint32_t count, Bounds *bounds)
     if (count < 4 || !(farthest > 0x1p-900 && farthest < 0x1p900)) {
         return false;
     }
+    const Polyhedron polyhedron = {spaces, count, 0x1p20 * farthest};
     for (int axis = 0; axis < 3; axis++) {
         double above, below;
-        if (!find_reach(spaces, count, 0x1p20 * farthest, axis, 1.0, &high[axis], &above) ||
-            !find_reach(spaces, count, 0x1p20 * farthest, axis, -1.0, &low[axis], &below)) {
+        if (!find_reach(&polyhedron, axis, 1.0, &high[axis], &above) ||
+            !find_reach(&polyhedron, axis, -1.0, &low[axis], &below)) {
             return false;
         }
         most = fmax(most, fmax(above, below));

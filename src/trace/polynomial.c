@@ -397,12 +397,13 @@ unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left,
         polynomial_order(list) == 2 && (is_start ? quadric_roots_left(&line, left.inward, roots, &count, &is_inside)
                                                  : quadric_roots(&line, roots, &count, &is_inside));
     return is_certain ? make_intervals(&line, roots, count, is_inside, intervals)
-                   : line_intervals(&line, left.inward, intervals);
+                      : line_intervals(&line, left.inward, intervals);
 }
 
-unsigned polynomial_intervals_within(const double *list, const Ray *ray, SideLeft left, double low, double high,
-                                     unsigned most, RayInterval *intervals)
+unsigned polynomial_intervals_within(const double *list, const Ray *ray, SideLeft left, LineRange range, unsigned most,
+                                     RayInterval *intervals)
 {
+    const double low = range.low, high = range.high;
     Line line;
     bool is_start = left.side != SIDE_NONE;
     double margin = WITHIN_MARGIN * (fabs(low) + fabs(high));

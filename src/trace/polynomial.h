@@ -13,10 +13,15 @@
 // less, of a convex quadric one. Returns how many.
 unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left, unsigned most, RayInterval *intervals);
 
+// A part of a line, from one parameter to another.
+typedef struct LineRange {
+    double low, high;
+} LineRange;
+
 // The same, but crossings that surely lie before `low` or behind `high` may be left out. What is inside there has no
 // end. The ends are not less than 0.
-unsigned polynomial_intervals_within(const double *list, const Ray *ray, SideLeft left, double low, double high,
-                                     unsigned most, RayInterval *intervals);
+unsigned polynomial_intervals_within(const double *list, const Ray *ray, SideLeft left, LineRange range, unsigned most,
+                                     RayInterval *intervals);
 
 // Out of what is inside, at most 4 long; where the surface has no normal, along x.
 Vec3 polynomial_slope(const double *list, Vec3 point);

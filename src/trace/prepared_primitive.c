@@ -285,8 +285,8 @@ static unsigned polynomial_side_intervals(const PreparedPrimitive *primitive, co
 static unsigned polynomial_side_within(const PreparedPrimitive *primitive, const Ray *object, SideLeft left, double low,
                                        double high, RayInterval *intervals)
 {
-    return polynomial_intervals_within(primitive->list.items, object, left, low, high, polynomial_most(primitive),
-                                       intervals);
+    return polynomial_intervals_within(primitive->list.items, object, left, (LineRange){low, high},
+                                       polynomial_most(primitive), intervals);
 }
 
 static Vec3 polynomial_side_normal(const PreparedPrimitive *primitive, Vec3 point, uint8_t side)

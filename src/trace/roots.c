@@ -229,9 +229,14 @@ static bool sign_is_known(Polynomial *p, unsigned level, double x, int *sign)
     return fabs(value) > bound_at(p->errors, p->degree, level, x);
 }
 
+typedef struct Places {
+    const double *at; // in their order
+    unsigned count;
+} Places;
+
 // The roots of a level, from places between which it has one at most.
-static unsigned level_roots(Polynomial *p, unsigned level, const Range *range, const double *places,
-                            unsigned place_count, double *roots, int *first)
+static unsigned level_roots(Polynomial *p, unsigned level, const Range *range, Places between, double *roots,
+                            int *first)
 {
     unsigned count = 0;
     double from = range->low;
@@ -244,9 +249,9 @@ static unsigned level_roots(Polynomial *p, unsigned level, const Range *range, c
     }
     sign = is_known ? sign : 0;
     *first = sign;
-    for (unsigned i = 0; i <= place_count; i++) {
-        bool is_last = i == place_count;
-        double to = is_last ? range->high : places[i];
+    for (unsigned i = 0; i <= between.count; i++) {
+        bool is_last = i == between.count;
+        double to = is_last ? range->high : between.at[i];
         int next;
         is_known = true;
         if (is_last && range->is_high_infinite) {
@@ -317,7 +322,7 @@ static unsigned find_turns(Polynomial *p, const Range *range, double *turns)
         count = lowest_roots(p, level, range->low, range->high, places[now]);
         while (--level > 0) {
             int first;
-            count = level_roots(p, level, range, places[now], count, places[!now], &first);
+            count = level_roots(p, level, range, (Places){places[now], count}, places[!now], &first);
             now = !now;
         }
     }
@@ -329,7 +334,7 @@ static unsigned find_between(Polynomial *p, const Range *range, double *roots, i
 {
     double turns[ROOTS_DEGREE_MOST + 1];
     unsigned count = find_turns(p, range, turns);
-    return level_roots(p, 0, range, turns, count, roots, sign);
+    return level_roots(p, 0, range, (Places){turns, count}, roots, sign);
 }
 
 unsigned roots_and_turns(Polynomial *p, double low, double high, double *places)
@@ -345,7 +350,7 @@ unsigned roots_and_turns(Polynomial *p, double low, double high, double *places)
     }
     set_levels(p);
     unsigned count = find_turns(p, &range, places);
-    return count + level_roots(p, 0, &range, places, count, places + count, &sign);
+    return count + level_roots(p, 0, &range, (Places){places, count}, places + count, &sign);
 }
 
 // Whether a polynomial of degree 4 has no root, as it is for most lines that pass a surface by: of c4 x⁴ + … + c0 the

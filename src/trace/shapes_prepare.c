@@ -172,8 +172,8 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         if (primitive_is_mesh(primitive)) {
             primitive->mesh.cursor = csg->mesh_count++;
         }
-        primitive->is_needed =
-            !(primitive->flags & PRIMITIVE_INVERSE) && !(primitive->traits & TRAIT_SHEET) && !primitive_is_mesh(primitive);
+        primitive->is_needed = !(primitive->flags & PRIMITIVE_INVERSE) && !(primitive->traits & TRAIT_SHEET) &&
+                               !primitive_is_mesh(primitive);
         for (uint32_t at = primitive->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
             primitive->flips = primitive->flips != node->is_inverse;
@@ -368,10 +368,17 @@ static Bounds items_bounds(const ShapeTable *table, const Work *work, const Shap
     return all;
 }
 
+// Items that go to places of the table from `to` on.
+typedef struct ItemsToPlace {
+    const ShapeItem *from;
+    uint32_t count, to;
+} ItemsToPlace;
+
 // The tree of some items, which with their boxes go to places of the table in its order.
-static bool tree_init(ShapeTable *table, Work *work, const ShapeItem *from, uint32_t count, uint32_t to, Bvh *tree,
-                      int threads)
+static bool tree_init(ShapeTable *table, Work *work, Bvh *tree, const ItemsToPlace *items, int threads)
 {
+    const ShapeItem *from = items->from;
+    const uint32_t count = items->count, to = items->to;
     BvhRef *refs = work->ref_pages.memory;
     Bounds all = items_bounds(table, work, from, count);
     bvh_place(tree, all.low, all.high);
@@ -434,7 +441,7 @@ static bool clusters_init(ShapeTable *table, Work *work, const PlacedItem *place
         work->clusters[c] = items_bounds(table, work, inner + first, own);
         cluster->items = table->items + table->unbounded_count + kept + first;
         cluster->boxes = table->boxes + kept + first;
-        done = tree_init(table, work, inner + first, own, kept + first, &cluster->tree, 1);
+        done = tree_init(table, work, &cluster->tree, &(ItemsToPlace){inner + first, own, kept + first}, 1);
         table->cluster_count++;
         first += own;
     }
@@ -468,7 +475,7 @@ static bool trees_init(ShapeTable *table, Work *work, int threads)
     }
     table->boxes = table->box_pages.memory;
     return (!is_blurred(table, work) || clusters_part(table, work)) &&
-           tree_init(table, work, work->bounded, table->bounded_count, 0, &table->tree, threads);
+           tree_init(table, work, &table->tree, &(ItemsToPlace){work->bounded, table->bounded_count, 0}, threads);
 }
 
 static bool items_init(ShapeTable *table, Work *work, int threads)

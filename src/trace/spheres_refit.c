@@ -355,10 +355,10 @@ static bool refit_tree(Refit *refit, SphereRefit *state, double growth, int thre
     return is_done && measure_areas(refit->table, threads, &now) && is_good(state, &now, growth);
 }
 
-bool sphere_table_refit(SphereTable *table, SphereRefit *state, const Scene *scene, int exponent, SphereRange moved,
-                        double rays, int threads)
+bool sphere_table_refit(SphereTable *table, SphereRefit *state, const Scene *scene, int exponent,
+                        const SphereMoves *moves)
 {
-    Refit refit = {.table = table, .records = sphere_records(scene, exponent), .moved = moved};
+    Refit refit = {.table = table, .records = sphere_records(scene, exponent), .moved = moves->range};
     if (table->count != scene->spheres.count || table->bvh.node_count == 0) {
         return false; // some are left out, or all are loose
     }
@@ -366,7 +366,7 @@ bool sphere_table_refit(SphereTable *table, SphereRefit *state, const Scene *sce
         state->skip--;
         return false;
     }
-    bool is_done = refit_tree(&refit, state, growth_most(table->count, rays), threads);
+    bool is_done = refit_tree(&refit, state, growth_most(table->count, moves->rays), moves->threads);
     if (is_done) {
         sphere_table_measure(table);
         state->fits++;

@@ -23,11 +23,18 @@ typedef struct SphereRange {
     size_t begin, end;
 } SphereRange;
 
-// Brings the table up to date for a picture of so many rays, 0: unknown; `exponent` is that of the scene now, and when
+// What has changed, for a picture of so many rays, 0: unknown; by so many threads.
+typedef struct SphereMoves {
+    SphereRange range;
+    double rays;
+    int threads;
+} SphereMoves;
+
+// Brings the table up to date; `exponent` is that of the scene now, and when
 // it, or the place of everything, is another one than the table's, all spheres are in the range. False when it must be
 // made anew: after one that cannot be met any more, when the tree would cost rays too much, or out of memory; it is
 // then of no use.
-bool sphere_table_refit(SphereTable *table, SphereRefit *refit, const Scene *scene, int exponent, SphereRange moved,
-                        double rays, int threads) RT_MUST_CHECK;
+bool sphere_table_refit(SphereTable *table, SphereRefit *refit, const Scene *scene, int exponent,
+                        const SphereMoves *moves) RT_MUST_CHECK;
 
 #endif

@@ -31,7 +31,7 @@ typedef struct BoardPoint {
     double seconds, error, samples;
 } BoardPoint;
 
-// What becomes of a picture that POV-Ray is asked for.
+// What becomes of a picture that POV-Ray draws on request.
 typedef enum PeerState { PEER_MISSING, PEER_IDLE, PEER_DRAWING, PEER_DONE, PEER_FAULT } PeerState;
 
 typedef struct Board {

@@ -1,6 +1,6 @@
 // The C boundary between the program and the module that wraps libmicrohttpd, which only --watch loads.
 //
-// The module knows requests and answers and nothing of what is asked. It opens no socket: it is given one that listens.
+// The module knows requests and answers and nothing of what they mean. It opens no socket: it is given one that listens.
 //
 // SPDX-License-Identifier: MIT
 #ifndef WATCH_HTTP_MODULE_H

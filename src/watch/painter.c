@@ -87,7 +87,7 @@ static bool send_picture(const Paint *paint, double seconds)
     return fine;
 }
 
-// A picture each time that it is asked for; a later question ends an earlier one's run, and so does the program's end.
+// A picture for each request; a later question ends an earlier one's run, and so does the program's end.
 static void paint_until_end(Paint *paint)
 {
     char questions[64], detail[DETAIL_SIZE];

@@ -1,4 +1,4 @@
-// The painter: a process that runs POV-Ray on the scene when it is asked to, and hands back the picture.
+// The painter: a process that runs POV-Ray on the scene on request, and hands back the picture.
 //
 // It is made before the kernel confines the program, which then may start nothing itself: over a pipe it can only say
 // "now". It ends, and POV-Ray with it, when the program does, however that ends.

@@ -1,4 +1,4 @@
-// The page's requests: what is asked under the token, and answers from the board. Everything else is not found.
+// The page's requests: what comes under the token, and answers from the board. Everything else is not found.
 //
 // SPDX-License-Identifier: MIT
 #ifndef WATCH_SERVE_H

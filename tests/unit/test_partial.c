@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "rtlang/rtlang.h"
+#include "rtlang/sharing.h"
 #include "share/partial.h"
 #include "tests/unit/tap.h"
 

@@ -349,7 +349,7 @@ static void test_within(unsigned order, double size, bool starts, uint64_t seed)
         if (!crossings_within(whole, count, low, high, all, &all_count, &all_inside)) {
             continue;
         }
-        count = polynomial_intervals_within(surface.list, &ray, left, low, high, ORDER_MOST, part);
+        count = polynomial_intervals_within(surface.list, &ray, left, (LineRange){low, high}, ORDER_MOST, part);
         crossings_within(part, count, low, high, some, &some_count, &some_inside);
         rays++;
         met += all_count > 0;

@@ -561,13 +561,13 @@ bool block_read_items(Block *block, SchemaKind *is)
 
 bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Desc *record, SchemaKind *is)
 {
-    return block_read_moved(ev, node, kind, arena, NULL, record, is);
+    return block_read_moved(ev, node, kind, (BlockRoom){arena, NULL}, record, is);
 }
 
-bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, const Transform *moved,
-                      Desc *record, SchemaKind *is)
+bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, BlockRoom room, Desc *record, SchemaKind *is)
 {
-    Block block = {.ev = ev, .node = node, .arena = arena, .record = record, .kind = kind, .is = kind, .moved = moved};
+    Block block = {
+        .ev = ev, .node = node, .arena = room.arena, .record = record, .kind = kind, .is = kind, .moved = room.moved};
     cursor_open(&block.cursor, ev, node->a, node->span);
     if (!block_read_items(&block, is)) {
         return false;

@@ -1,4 +1,5 @@
-// The values of a block's properties: numbers, vectors, colours, lists and braces become the field that the schema names.
+// The values of a block's properties: numbers, vectors, colours, lists and braces become the field that the schema
+// names.
 //
 // What is no value of the property's type, not finite or out of its range is a located fault, or is put right with a
 // warning, as the range says. Knows nothing of where in a block a property may stand.
@@ -17,6 +18,28 @@ Span block_here(Block *block)
 bool block_finite(Block *block, double number, Span span, const char *word)
 {
     return isfinite(number) || block_fault(block, DIAG_E0340, span, "`%s` is not a finite number", word);
+}
+
+bool block_pair(Block *block, const char *what, double pair[2])
+{
+    Value value;
+    const char *word = block_word(block);
+    if (!cursor_at_value(&block->cursor)) {
+        return block_fault(block, DIAG_E0253, block_here(block), "`%s` needs a vector of 2 here: %s", word, what);
+    }
+    Span span = cursor_peek(&block->cursor)->span;
+    if (!cursor_value(&block->cursor, &value)) {
+        return false;
+    }
+    bool is_number = value.kind == VALUE_NUMBER;
+    if (!is_number && !(value.kind == VALUE_VECTOR && value.components == 2)) {
+        return block_fault(block, DIAG_E0202, span, "`%s` needs a vector of 2 here, not %s: %s", word,
+                           value_describe(&value), what);
+    }
+    pair[0] = is_number ? value.number : value.v[0];
+    pair[1] = is_number ? value.number : value.v[1];
+    return (isfinite(pair[0]) && isfinite(pair[1])) ||
+           block_fault(block, DIAG_E0340, span, "`%s` needs finite numbers here: %s", word, what);
 }
 
 static bool check_range(Block *block, const SchemaProperty *property, double *number, Span span)

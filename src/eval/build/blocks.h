@@ -15,13 +15,13 @@ struct ObjectState {
     uint8_t advice[WORD_COUNT];                 // place among the unsupported words + 1
     bool is_told[WORD_COUNT];                   // that rtlang has not this word
     const TextureDesc *defaults;                // of #default
-    const SkySphereDesc *sky; // the last one so far, in the program's memory; NULL: none
+    const SkySphereDesc *sky;                   // the last one so far, in the program's memory; NULL: none
     Span sky_span;
     struct KeptRainbow *rainbows, *last_rainbow; // in order, likewise
-    const NormalDesc *camera_normal; // of the last camera so far, likewise
-    uint32_t groups;       // unions so far that say what their members are filled with
-    bool may_lack_weights; // the map that is read belongs to `average`
-    bool uses_uv;          // something so far lies on surfaces
+    const NormalDesc *camera_normal;             // of the last camera so far, likewise
+    uint32_t groups;                             // unions so far that say what their members are filled with
+    bool may_lack_weights;                       // the map that is read belongs to `average`
+    bool uses_uv;                                // something so far lies on surfaces
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring;
     const UnsupportedDesc *deferred; // the first; NULL: none
@@ -31,16 +31,16 @@ struct ObjectState {
 typedef struct Block {
     Eval *ev;
     const AstNode *node;
-    Arena *arena;      // where the objects inside it are kept
+    Arena *arena; // where the objects inside it are kept
     Cursor cursor;
     Desc *record;
-    SchemaKind kind;   // of its word
-    SchemaKind is;     // of the record: another object kind after an identifier
+    SchemaKind kind;        // of its word
+    SchemaKind is;          // of the record: another object kind after an identifier
     const Transform *moved; // see block_read_moved
-    size_t arguments;  // that were given
-    size_t items;      // properties so far
-    bool has_name;     // it began with an identifier
-    bool on_surface;   // `uv_mapping` was said: at the start of a texture or part of one, before an object's texture
+    size_t arguments;       // that were given
+    size_t items;           // properties so far
+    bool has_name;          // it began with an identifier
+    bool on_surface; // `uv_mapping` was said: at the start of a texture or part of one, before an object's texture
     bool is_plain, is_patterned; // a texture that begins with a part or a transform, or with a word of a pattern
     bool has_unsupported;
     bool is_lost; // with what it lacks it is nothing
@@ -99,11 +99,16 @@ void block_defaults(const Eval *ev, SchemaKind kind, Desc *record);
 // Reads a block into *record, which holds the defaults, and its kind into *is. False when a fault was reported.
 bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Desc *record,
                 SchemaKind *is) RT_MUST_CHECK;
-// The same, with an object moved before what is said of it after its shape or name. NULL: it is not.
-bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, const Transform *moved,
-                      Desc *record, SchemaKind *is) RT_MUST_CHECK;
-// The block, read into *record as by block_read, becomes a value that is kept for the whole program; what rtlang has not
-// becomes one that is a fault where it is used.
+// Where descriptions go that a block holds, and where the object is at first; NULL: it is not moved.
+typedef struct BlockRoom {
+    Arena *arena;
+    const Transform *moved;
+} BlockRoom;
+// The same, with an object moved before what is said of it after its shape or name.
+bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, BlockRoom room, Desc *record,
+                      SchemaKind *is) RT_MUST_CHECK;
+// The block, read into *record as by block_read, becomes a value that is kept for the whole program; what rtlang has
+// not becomes one that is a fault where it is used.
 bool block_read_declared(Eval *ev, const AstNode *node, SchemaKind kind, Desc *record, Value *value) RT_MUST_CHECK;
 // Transforms what has been read of a block so far.
 bool block_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
@@ -157,6 +162,8 @@ bool block_value(Block *block, const SchemaProperty *property, Span word) RT_MUS
 bool block_read_typed(Block *block, const SchemaProperty *property, void *at) RT_MUST_CHECK;
 // True when the number is finite, else a fault.
 bool block_finite(Block *block, double number, Span span, const char *word) RT_MUST_CHECK;
+// Reads a vector of 2, or a number that stands for two of it; `what` says in a message what they are, as "a corner".
+bool block_pair(Block *block, const char *what, double pair[2]) RT_MUST_CHECK;
 // Whether a value comes next that is no word.
 bool block_at_expression(Block *block);
 // Where the next item is, or the block's end.
@@ -232,10 +239,14 @@ bool warps_place(Eval *ev, Scene *scene, const WarpDesc *last, Span span, uint32
 // formula.c
 // Steps of a function of three numbers; what it is made of must be such as the renderer has.
 bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, uint32_t *first) RT_MUST_CHECK;
-// The same with patterns and pigments that are numbered as they are found; for this they are put behind `painted`, and a
-// scene gets records of them that are not used.
+// The same with patterns and pigments that are numbered as they are found; for this they are put behind `painted`, and
+// a scene gets records of them that are not used.
 typedef ARRAY(Painted *) PaintedList;
-bool formula_make(Eval *ev, Scene *scene, const Function *function, SchemaKind kind, Span span, uint32_t *first,
+typedef struct FormulaBlock { // the block that a function stands in
+    SchemaKind kind;
+    Span span;
+} FormulaBlock;
+bool formula_make(Eval *ev, Scene *scene, const Function *function, FormulaBlock in, uint32_t *first,
                   PaintedList *painted) RT_MUST_CHECK;
 
 // material.c
@@ -400,7 +411,7 @@ bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object
 bool union_close(Block *block) RT_MUST_CHECK;
 bool light_group_close(Block *block) RT_MUST_CHECK; // what is read is a union
-bool object_is_group(SchemaKind kind); // a union, merge, intersection or difference
+bool object_is_group(SchemaKind kind);              // a union, merge, intersection or difference
 // How deep groups, and lights that look like groups, stand in one another in an object.
 uint32_t object_depth(SchemaKind kind, const void *object);
 bool object_is_statement(SchemaKind kind); // may stand outside of all braces
@@ -417,7 +428,7 @@ bool clips_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 bool blob_box(const void *object, OwnBox *own);
 
 typedef struct ShapeClass {
-    bool is_flat;     // has no inside: clips and cuts nothing
+    bool is_flat;        // has no inside: clips and cuts nothing
     uint16_t corners_at; // three in the description, which bound it instead of `box`; 0: none
     // Drops signs that do not count. False: there is no such shape, which `fault` says by `code`.
     bool (*settle)(Desc *record);
@@ -427,7 +438,8 @@ typedef struct ShapeClass {
     // Kind, numbers and map, before all transforms. Why there is nothing to draw, or NULL. Of a plane NULL.
     const char *(*form)(const void *object, Primitive *part);
     bool (*has_inside)(const void *object); // NULL: as `is_flat` says
-    bool (*holds)(const void *object, Vec3 point, bool is_turned); // inside of it, or of it turned; NULL: not to be asked
+    bool (*holds)(const void *object, Vec3 point,
+                  bool is_turned);                // inside of it, or of it turned; NULL: not to be asked
     bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself; it may be infinite
 } ShapeClass;
 

@@ -317,13 +317,13 @@ static bool make_outer(Maker *maker, const Function *function, Made *made)
     return function->kind == FUNCTION_NUMBER ? make(maker, function, made) : make_body(maker, &outer, made);
 }
 
-bool formula_make(Eval *ev, Scene *scene, const Function *function, SchemaKind kind, Span span, uint32_t *first,
+bool formula_make(Eval *ev, Scene *scene, const Function *function, FormulaBlock in, uint32_t *first,
                   PaintedList *painted)
 {
-    Maker maker = {.ev = ev, .scene = scene, .kind = kind, .span = span, .painted = painted};
+    Maker maker = {.ev = ev, .scene = scene, .kind = in.kind, .span = in.span, .painted = painted};
     Made made = {.first = RECORD_NONE};
     unsigned height = function->body ? function->body->height : 1;
-    if (!eval_deepen(ev, height, span)) {
+    if (!eval_deepen(ev, height, in.span)) {
         return false;
     }
     bool fine = make_outer(&maker, function, &made);
@@ -335,5 +335,5 @@ bool formula_make(Eval *ev, Scene *scene, const Function *function, SchemaKind k
 
 bool formula_place(Eval *ev, Scene *scene, const Function *function, Span span, uint32_t *first)
 {
-    return formula_make(ev, scene, function, KIND_PATTERN, span, first, NULL);
+    return formula_make(ev, scene, function, (FormulaBlock){KIND_PATTERN, span}, first, NULL);
 }

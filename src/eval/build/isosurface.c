@@ -230,7 +230,8 @@ static bool make(Block *block, PaintedList *painted)
     Scene scene;
     uint32_t first;
     scene_init(&scene);
-    bool is_made = formula_make(block->ev, &scene, desc->function, block->kind, block->node->span, &first, painted) &&
+    const FormulaBlock in = {block->kind, block->node->span};
+    bool is_made = formula_make(block->ev, &scene, desc->function, in, &first, painted) &&
                    make_list(block, &scene, first, &desc->formula.list) &&
                    shape_formula_host(block, &desc->formula, ISOSURFACE_HEAD, painted);
     scene_fini(&scene);

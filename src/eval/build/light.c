@@ -102,7 +102,7 @@ bool light_look_action(Block *block, const SchemaProperty *property, const AstNo
     }
     Transform place = transform_translate(light->position);
     block_defaults(block->ev, KIND_LOOKS_LIKE, &record);
-    if (!block_read_moved(block->ev, item, KIND_LOOKS_LIKE, block->arena, &place, &record, &is)) {
+    if (!block_read_moved(block->ev, item, KIND_LOOKS_LIKE, (BlockRoom){block->arena, &place}, &record, &is)) {
         return false;
     }
     if (!schema_kind(is)->is_object) {
@@ -188,14 +188,14 @@ bool light_place(Eval *ev, const LightDesc *light, const Transform *outer, uint3
         .area = moved.area,
         .span = light->part.span,
     };
-    // Lengths that are equal but for the rounding of two lengths, a quotient and a product stay, so that a light that was
-    // written with its axes is read as the same one.
+    // Lengths that are equal but for the rounding of two lengths, a quotient and a product stay, so that a light that
+    // was written with its axes is read as the same one.
     double side = vec3_length(record.area.axis2), wanted = vec3_length(record.area.axis1);
     if (record.area.is_oriented && side > 0.0 && fabs(side - wanted) > 8.0 * DBL_EPSILON * wanted) {
         record.area.axis2 = vec3_scale(wanted / side, record.area.axis2);
     }
-    if (!vec3_is_finite(record.position) || !vec3_is_finite(record.point_at) ||
-        !vec3_is_finite(record.area.axis1) || !vec3_is_finite(record.area.axis2)) {
+    if (!vec3_is_finite(record.position) || !vec3_is_finite(record.point_at) || !vec3_is_finite(record.area.axis1) ||
+        !vec3_is_finite(record.area.axis2)) {
         return eval_fault(ev, DIAG_E0340, light->part.span, "the light leaves the range of numbers");
     }
     return (scene_add_light(ev->scene, &record) || eval_no_memory(ev, light->part.span)) &&

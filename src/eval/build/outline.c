@@ -209,27 +209,6 @@ static bool is_at_point(Block *block, size_t read, size_t count)
                                            block_word(block), count, read);
 }
 
-static bool read_point(Block *block, OutlinePoint *point)
-{
-    Value value;
-    const AstNode *item = cursor_peek(&block->cursor);
-    Span span = item->span;
-    if (!cursor_value(&block->cursor, &value)) {
-        return false;
-    }
-    if (value.kind == VALUE_NUMBER) {
-        *point = (OutlinePoint){value.number, value.number};
-    } else if (value.kind == VALUE_VECTOR && value.components == 2) {
-        *point = (OutlinePoint){value.v[0], value.v[1]};
-    } else {
-        return block_fault(block, DIAG_E0202, span, "a point of a %s is a vector of 2, not %s", block_word(block),
-                           value_describe(&value));
-    }
-    return (isfinite(point->u) && isfinite(point->v)) ||
-           block_fault(block, DIAG_E0340, span, "a point of a %s has a coordinate that is not finite",
-                       block_word(block));
-}
-
 bool outline_read_points(Block *block, size_t count, Span span, OutlinePoint **points)
 {
     *points = arena_alloc_array(block->arena, count, sizeof **points);
@@ -237,9 +216,11 @@ bool outline_read_points(Block *block, size_t count, Span span, OutlinePoint **p
         return eval_no_memory(block->ev, span);
     }
     for (size_t i = 0; i < count; i++) {
-        if (!is_at_point(block, i, count) || !read_point(block, &(*points)[i])) {
+        double pair[2];
+        if (!is_at_point(block, i, count) || !block_pair(block, "a point", pair)) {
             return false;
         }
+        (*points)[i] = (OutlinePoint){pair[0], pair[1]};
     }
     return true;
 }
@@ -363,7 +344,7 @@ static bool read_vector(Block *block, Vec3 *point)
     Span span;
     return cursor_vector3(&block->cursor, point, &span) &&
            (vec3_is_finite(*point) ||
-            block_fault(block, DIAG_E0340, span, "a point of a polygon has a coordinate that is not finite"));
+            block_fault(block, DIAG_E0340, span, "`polygon` needs finite numbers here: a point"));
 }
 
 bool polygon_body(Block *block)

@@ -11,7 +11,7 @@
 #include "eval/values/function.h"
 #include "scene/parametric.h"
 
-static const char *const coordinates[3] = {"x", "y", "z"};
+static const char *const coordinates[3] = {"x", "y", "z"}, *const corner = "a corner of the rectangle of u and v";
 
 // `function { … }`, as it stands: without parameters, and not of a pattern and the like.
 static bool read_function(Block *block, const char *what, const Function **function)
@@ -54,32 +54,6 @@ static bool pass_functions(Block *block)
     return false;
 }
 
-// A corner of the rectangle; a number is both.
-static bool read_corner(Block *block, double corner[2])
-{
-    Value value;
-    if (!cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, block_here(block),
-                           "`parametric` needs a vector of 2 here: a corner of the rectangle of u and v");
-    }
-    Span span = cursor_peek(&block->cursor)->span;
-    if (!cursor_value(&block->cursor, &value)) {
-        return false;
-    }
-    bool is_number = value.kind == VALUE_NUMBER;
-    if (!is_number && !(value.kind == VALUE_VECTOR && value.components == 2)) {
-        return block_fault(block, DIAG_E0202, span, "a corner of the rectangle of u and v is a vector of 2, not %s",
-                           value_describe(&value));
-    }
-    for (int i = 0; i < 2; i++) {
-        corner[i] = is_number ? value.number : value.v[i];
-        if (!isfinite(corner[i])) {
-            return block_fault(block, DIAG_E0340, span, "a corner of the rectangle of u and v is not finite");
-        }
-    }
-    return true;
-}
-
 static bool make_list(Block *block, const Scene *scene, Parametric *head, Numbers *list)
 {
     size_t steps = scene->formula_steps.count, count = PARAMETRIC_HEAD + PARAMETRIC_STEP * steps;
@@ -99,12 +73,13 @@ static bool make(Block *block, Parametric *head, PaintedList *painted)
 {
     const Function *const *functions = block->record->parametric.functions;
     ShapeFormula *formula = &block->record->parametric.formula;
+    const FormulaBlock in = {block->kind, block->node->span};
     Scene scene;
     bool is_made = true;
     scene_init(&scene);
     for (int axis = 0; axis < 3 && is_made; axis++) {
         uint32_t first;
-        is_made = formula_make(block->ev, &scene, functions[axis], block->kind, block->node->span, &first, painted);
+        is_made = formula_make(block->ev, &scene, functions[axis], in, &first, painted);
         head->first[axis] = first;
     }
     is_made = is_made && make_list(block, &scene, head, &formula->list) &&
@@ -125,11 +100,11 @@ bool parametric_body(Block *block)
             cursor_take_comma(&block->cursor);
         }
     }
-    if (!read_corner(block, a)) {
+    if (!block_pair(block, corner, a)) {
         return false;
     }
     cursor_take_comma(&block->cursor);
-    if (!read_corner(block, b)) {
+    if (!block_pair(block, corner, b)) {
         return false;
     }
     for (int i = 0; i < 2; i++) {

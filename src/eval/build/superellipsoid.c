@@ -14,27 +14,13 @@ static const double BOX = 1.0001;
 bool superellipsoid_body(Block *block)
 {
     SuperellipsoidDesc *shape = &block->record->superellipsoid;
-    Value value;
-    if (!cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, block_here(block),
-                           "`superellipsoid` needs a vector of 2 here: its exponents");
-    }
-    Span span = cursor_peek(&block->cursor)->span;
-    if (!cursor_value(&block->cursor, &value)) {
+    double exponents[2];
+    Span span = block_here(block);
+    if (!block_pair(block, "its exponents", exponents)) {
         return false;
     }
-    if (value.kind == VALUE_NUMBER) {
-        shape->about = shape->along = value.number;
-    } else if (value.kind == VALUE_VECTOR && value.components == 2) {
-        shape->about = value.v[0];
-        shape->along = value.v[1];
-    } else {
-        return block_fault(block, DIAG_E0202, span, "the exponents of a superellipsoid are a vector of 2, not %s",
-                           value_describe(&value));
-    }
-    if (!(isfinite(shape->about) && isfinite(shape->along))) {
-        return block_fault(block, DIAG_E0340, span, "an exponent of a superellipsoid is not finite");
-    }
+    shape->about = exponents[0];
+    shape->along = exponents[1];
     double least = fmin(shape->about, shape->along);
     return least > 0.0 || block_fault(block, DIAG_E0341, span,
                                       "the exponents of a superellipsoid must be greater than 0, not %g", least);

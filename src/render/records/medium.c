@@ -1,4 +1,4 @@
-// Lists of bodies that are put together anew, because one was left that is not the last, or to give room back.
+// Lists of bodies that are combined anew, because one was left that is not the last, or to give room back.
 //
 // SPDX-License-Identifier: MIT
 #include "render/records/medium.h"

@@ -1,4 +1,4 @@
-// How a picture is asked for, and what is reported of it beside its light: options, progress, counts and errors.
+// How a picture is requested, and what is reported of it besides its light: options, progress, counts and errors.
 //
 // Plain data of the caller's; read-only while a picture is traced.
 //

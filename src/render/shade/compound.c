@@ -11,7 +11,7 @@
 
 enum { ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES, FLAT_FEATURES = ALL_FEATURES & ~RENDER_NORMALS };
 
-// The point for all layers together: what reaches it of a light is asked for once.
+// The point for all layers together: what reaches it of a light is computed once.
 static ShadingPoint for_layers(const ShadingPoint *at, ShadeArrived *arrived)
 {
     ShadingPoint shared = *at;

@@ -1,4 +1,4 @@
-// Light from all sides: what a uniform sky, which is asked for beside the scene, makes of a surface.
+// Light from all sides: what a uniform sky, which is requested besides the scene, makes of a surface.
 //
 // A sky of strength s gives a surface that nothing covers the light s: as many parallel lights of all directions would
 // whose colours add up to 4 s, without their highlights. Beside that only what is in the way counts, so this is what

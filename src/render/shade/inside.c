@@ -1,7 +1,7 @@
 // What a ray that starts at a point is inside of.
 //
 // Follows a line from the point to where there is nothing more: what it leaves without having entered it is what the
-// point is in. Shapes that are clipped, turned inside out or flat are asked by themselves
+// point is in. Shapes that are clipped, turned inside out or flat are tested by themselves
 // (StartShape). One function with all features, for it runs once for each place of the eye.
 //
 // SPDX-License-Identifier: MIT
@@ -13,16 +13,13 @@
 // Of unit length, and along nothing that people like to build along.
 static const Vec3 odd_direction = {0.36, 0.80, 0.48};
 
-// What the line continues from: the other side of the surface that was hit.
-static void go_through(const Prepared *prepared, Ray *ray, RayStart *start, const Hit *hit, uint64_t *body,
-                       MaterialIndex *material, uint32_t *order)
+// The surface that was hit; the line continues from its other side.
+static Surface go_through(const Prepared *prepared, Ray *ray, RayStart *start, const Hit *hit)
 {
     Surface surface = geometry_surface(prepared->geometry, TRACE_ALL_FEATURES, *ray, *hit);
-    *body = scene_shape_key(surface.order, surface.body);
-    *material = surface.material;
-    *order = surface.order;
     ray->origin = surface.point;
     *start = (RayStart){hit->shape, !hit->inside, 0};
+    return surface;
 }
 
 // What a point is in, in POV-Ray's order, as measured: first what has no end, then all else, each in the order of the
@@ -99,17 +96,15 @@ static void walk(const Prepared *prepared, Ray ray, Found *found)
     MediumList entered = {.count = 0};
     Hit hit;
     for (uint64_t passed = 0; passed <= prepared->crossings_max; passed++) {
-        uint64_t body;
-        uint32_t order;
-        MaterialIndex material;
         if (!geometry_closest(prepared->geometry, TRACE_ALL_FEATURES, ray, start, (double)INFINITY, &hit)) {
             return;
         }
-        go_through(prepared, &ray, &start, &hit, &body, &material, &order);
-        if (geometry_is_flat(prepared->geometry, hit.shape) || has_start(prepared->scene, order)) {
+        Surface surface = go_through(prepared, &ray, &start, &hit);
+        const uint64_t body = scene_shape_key(surface.order, surface.body);
+        if (geometry_is_flat(prepared->geometry, hit.shape) || has_start(prepared->scene, surface.order)) {
             continue;
         }
-        MediumRegion region = region_of(prepared, body, material);
+        MediumRegion region = region_of(prepared, body, surface.material);
         uint32_t place = place_of(&entered, body);
         if (!hit.inside && entered.count < MEDIUM_DEPTH_MAX) {
             entered.regions[entered.count++] = region;
@@ -117,7 +112,7 @@ static void walk(const Prepared *prepared, Ray ray, Found *found)
             list_remove(&entered, place);
         } else if (hit.inside && place_of(found->list, body) == found->list->count) {
             // Without an interior, too: such a shape is left on the way out, and not entered. Measured.
-            put_in(found, region, rank_of(order, shape_kind(hit.shape) == SHAPE_PLANE));
+            put_in(found, region, rank_of(surface.order, shape_kind(hit.shape) == SHAPE_PLANE));
         }
     }
 }

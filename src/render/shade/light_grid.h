@@ -1,7 +1,7 @@
-// The mean over the lights of an area: which of them are asked for, each at most once, and what their answers count.
+// The mean over the lights of an area: which of them are evaluated, each at most once, and how much each result counts.
 //
 // Knows neither places nor rays: the caller answers for lights by their row and column, and shares of light come back.
-// Without `adaptive` all lights are asked for, row by row. With it the grid is divided depth first, and answers are
+// Without `adaptive` all lights are evaluated, row by row. With it the grid is divided depth first, and answers are
 // kept where a part that is divided later may want them: those of a part's corners go to its quarters, and those of its
 // lower and right edge to the parts beyond. One row and one column of answers suffice for that, however large the grid
 // is: only parts of one level want a light within an edge, and they come from left to right and from top to bottom.
@@ -54,13 +54,13 @@ typedef struct LightGrid {
     LightAsked asked[LIGHT_ASKED_MAX];
     int next_i, next_j; // not adaptive: the first light that was not asked for yet
     // Adaptive:
-    LightPart divided;  // the one that the lights are asked for
+    LightPart divided;  // the one whose lights are evaluated
     LightEnds columns, rows; // of that
     bool is_whole;      // the lights are its corners: it may stay whole
     Rgb shares[4][4];   // at the ends of its quarters
     int count;          // of parts that wait
     LightPart parts[LIGHT_PARTS_MAX];
-    LightAnswer *lower, *right; // by column, by row; NULL when there is no memory: then lights are asked for again
+    LightAnswer *lower, *right; // by column, by row; NULL when there is no memory: then lights are evaluated again
     LightAnswer *allocated;
     LightAnswer own[LIGHT_ANSWERS_OWN];
 } LightGrid;

@@ -69,7 +69,7 @@ RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned featur
     return out;
 }
 
-// Whether lights make anything of a surface; where they do not, none is asked for. Of a clear one grain takes away what
+// Whether lights make anything of a surface; where they do not, none is evaluated. Of a clear one grain takes away what
 // shines through it.
 RT_ALWAYS_INLINE bool shade_takes_light(const PreparedFinish *finish, Rgb opaque)
 {

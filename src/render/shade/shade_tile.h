@@ -125,7 +125,7 @@ RT_ALWAYS_INLINE ShadingPoint shade_tile_point(const LightTile *tile, int i, Mat
                           .stream = stream};
 }
 
-// A surface that light is asked for.
+// A surface whose light is computed.
 RT_ALWAYS_INLINE ShadingPoint shade_tile_lit_point(unsigned features, const TileScratch *scratch, int i)
 {
     ShadingPoint at = shade_tile_point(&scratch->tile, i, 0, NULL);
@@ -283,7 +283,7 @@ RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned feature
                        : geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, rays, together, asked));
 }
 
-// What the sky adds that is asked for beside the scene.
+// What the sky adds that is requested besides the scene.
 RT_SELDOM void shade_tile_dome(const Prepared *p, unsigned features, TileScratch *scratch, SampleStream *streams,
                                RenderStatistics *statistics)
 {

@@ -147,9 +147,12 @@ static int pressed(int place, int count)
 static double sample_colour(const Picture *picture, size_t i)
 {
     switch (picture->depth) {
-    case PICTURE_DEPTH_8: return picture->decoded[((const uint8_t *)picture->samples)[i]];
-    case PICTURE_DEPTH_16: return picture->decoded[((const uint16_t *)picture->samples)[i]];
-    case PICTURE_DEPTH_FLOAT: break;
+    case PICTURE_DEPTH_8:
+        return picture->decoded[((const uint8_t *)picture->samples)[i]];
+    case PICTURE_DEPTH_16:
+        return picture->decoded[((const uint16_t *)picture->samples)[i]];
+    case PICTURE_DEPTH_FLOAT:
+        break;
     }
     return ((const float *)picture->samples)[i];
 }
@@ -157,9 +160,12 @@ static double sample_colour(const Picture *picture, size_t i)
 static double sample_alpha(const Picture *picture, size_t i)
 {
     switch (picture->depth) {
-    case PICTURE_DEPTH_8: return ((const uint8_t *)picture->samples)[i] / 255.0;
-    case PICTURE_DEPTH_16: return ((const uint16_t *)picture->samples)[i] / 65535.0;
-    case PICTURE_DEPTH_FLOAT: break;
+    case PICTURE_DEPTH_8:
+        return ((const uint8_t *)picture->samples)[i] / 255.0;
+    case PICTURE_DEPTH_16:
+        return ((const uint16_t *)picture->samples)[i] / 65535.0;
+    case PICTURE_DEPTH_FLOAT:
+        break;
     }
     return ((const float *)picture->samples)[i];
 }
@@ -197,7 +203,8 @@ static double pixel_told(const PreparedImage *image, size_t pixel, const double 
     const Picture *picture = image->picture;
     bool has_alpha = picture->palette || picture->channels % 2 == 0, has_red = picture->channels >= 3;
     switch ((PictureUse)image->map.use) {
-    case PICTURE_ALPHA: return has_alpha ? parts[4] : has_red ? parts[0] : grey_of(picture, parts);
+    case PICTURE_ALPHA:
+        return has_alpha ? parts[4] : has_red ? parts[0] : grey_of(picture, parts);
     case PICTURE_INDEX:
     case PICTURE_RED:
         if (picture->palette) {
@@ -205,7 +212,8 @@ static double pixel_told(const PreparedImage *image, size_t pixel, const double 
             return image->map.use == PICTURE_INDEX ? place : place / 255.0;
         }
         return has_red && image->map.use == PICTURE_RED ? parts[0] : grey_of(picture, parts);
-    default: return grey_of(picture, parts);
+    default:
+        return grey_of(picture, parts);
     }
 }
 
@@ -224,16 +232,21 @@ static void pixel_get(const PreparedImage *image, int column, int row, double pa
     }
 }
 
+// Of columns and of rows of pixels.
+typedef struct Weights {
+    double across[4], up[4];
+    int count;
+} Weights;
+
 // The sum of pixels from (column, row) to the right and upward, as many as there are weights.
-static void mix(const PreparedImage *image, int column, int row, const double *across, const double *up, int count,
-                double sum[static PARTS])
+static void mix(const PreparedImage *image, int column, int row, const Weights *weights, double sum[static PARTS])
 {
-    for (int j = 0; j < count; j++) {
-        for (int i = 0; i < count; i++) {
+    for (int j = 0; j < weights->count; j++) {
+        for (int i = 0; i < weights->count; i++) {
             double parts[PARTS];
             pixel_get(image, column + i, row - j, parts);
             for (int c = 0; c < PARTS; c++) {
-                sum[c] += across[i] * up[j] * parts[c];
+                sum[c] += weights->across[i] * weights->up[j] * parts[c];
             }
         }
     }
@@ -279,17 +292,23 @@ static void interpolate(const PreparedImage *image, double left, double below, d
 {
     double x_whole = floor(left), y_whole = floor(below), x = left - x_whole, y = below - y_whole;
     int column = (int)x_whole, row = image->picture->height - 1 - (int)y_whole;
-    double across[4] = {1.0 - x, x}, up[4] = {1.0 - y, y};
+    Weights weights = {{1.0 - x, x}, {1.0 - y, y}, 2};
     memset(sum, 0, PARTS * sizeof *sum);
     switch ((Interpolation)image->map.interpolation) {
-    case INTERPOLATION_NONE: break;
-    case INTERPOLATION_BILINEAR: mix(image, column, row, across, up, 2, sum); break;
-    case INTERPOLATION_BICUBIC:
-        spline_weights(x, across);
-        spline_weights(y, up);
-        mix(image, column - 1, row + 1, across, up, 4, sum);
+    case INTERPOLATION_NONE:
         break;
-    case INTERPOLATION_DISTANCE: mix_by_distance(image, column, row, x, y, sum); break;
+    case INTERPOLATION_BILINEAR:
+        mix(image, column, row, &weights, sum);
+        break;
+    case INTERPOLATION_BICUBIC:
+        spline_weights(x, weights.across);
+        spline_weights(y, weights.up);
+        weights.count = 4;
+        mix(image, column - 1, row + 1, &weights, sum);
+        break;
+    case INTERPOLATION_DISTANCE:
+        mix_by_distance(image, column, row, x, y, sum);
+        break;
     }
 }
 

@@ -1,6 +1,6 @@
 // Bumps: how patterns turn a surface's normal.
 //
-// The height is asked for at the four corners of a tetrahedron around the point; the normal loses their sum, each
+// The height is evaluated at the four corners of a tetrahedron around the point; the normal loses their sum, each
 // corner's direction weighted with its height. Directions, factors and the order of transforms are measured;
 // docs/language.md, "Bumps". A normal in a map sees the normal and the point as they are in the map's space. The
 // records nest no deeper than the language lets them, so recursion is bounded.
@@ -53,7 +53,7 @@ static Vec3 lean(const TextureTable *table, uint32_t index, Vec3 point)
 
 // ---- normals
 
-// Where it is asked for: the point, and the surface coordinates there.
+// Where it is evaluated: the point, and the surface coordinates there.
 typedef struct NormalPlace {
     Vec3 point;
     const Vec3 *uv;

@@ -90,14 +90,16 @@ static inline void slices_of(double p, double centre, Slice slices[AXIS])
 
 // The cubes about a point, and the square that all ways are longer by.
 typedef struct Cubes {
+    const Noise *noise;
     Vec3 p;
     Slice x[AXIS], y[AXIS], z[AXIS];
     double offset;
 } Cubes;
 
 // The cubes of column i, j from number `begin`.
-static inline void look_into(const Noise *noise, const Cubes *cubes, int i, int j, int begin, int end, Nearest *nearest)
+static inline void look_into(const Cubes *cubes, int i, int j, int begin, int end, Nearest *nearest)
 {
+    const Noise *noise = cubes->noise;
     const Slice *x = &cubes->x[i], *y = &cubes->y[j], *z = cubes->z;
     unsigned hash = noise->hash[noise->hash[x->index] ^ y->index];
     for (int k = begin; k < end; k++) {
@@ -113,7 +115,7 @@ static inline void look_into(const Noise *noise, const Cubes *cubes, int i, int 
 static Nearest find_nearest_by_squares(const Noise *noise, Vec3 p, double offset)
 {
     Nearest nearest = {.way = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .site = p};
-    Cubes cubes = {.p = p, .offset = offset};
+    Cubes cubes = {.noise = noise, .p = p, .offset = offset};
     slices_of(p.x, floor(p.x), cubes.x);
     slices_of(p.y, floor(p.y), cubes.y);
     slices_of(p.z, floor(p.z), cubes.z);
@@ -124,7 +126,7 @@ static Nearest find_nearest_by_squares(const Noise *noise, Vec3 p, double offset
             for (int j = 0; j < most; j++) {
                 bool was_seen = pass == 1 && i < BESIDE && j < BESIDE;
                 if (cubes.x[i].gap + cubes.y[j].gap + offset < nearest.way[2]) {
-                    look_into(noise, &cubes, i, j, was_seen ? BESIDE : 0, most, &nearest);
+                    look_into(&cubes, i, j, was_seen ? BESIDE : 0, most, &nearest);
                 }
             }
         }
@@ -147,7 +149,6 @@ double pattern_crackle(const Pattern *pattern, const NoiseSource *source, Vec3 p
     if (pattern->flags & PATTERN_SOLID) {
         return noise_value(source->noise, pattern_generator(pattern, source), nearest.site);
     }
-    double sum = pattern->form.x * nearest.way[0] + pattern->form.y * nearest.way[1] +
-                 pattern->form.z * nearest.way[2];
+    double sum = pattern->form.x * nearest.way[0] + pattern->form.y * nearest.way[1] + pattern->form.z * nearest.way[2];
     return fmin(fmax(sum, 0.0), 1.0);
 }

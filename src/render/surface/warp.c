@@ -138,7 +138,7 @@ static Vec3 toroidal(const Warp *warp, const NoiseSource *source, Vec3 p)
 }
 
 // The cube unfolded that a point is seen on from the origin, as a box has it (trace/surface_map.c). Where two faces are
-// as far away, the one that is asked first has it; the origin itself, of which POV-Ray makes no number, lies on +x.
+// as far away, the one that is tested first has it; the origin itself, of which POV-Ray makes no number, lies on +x.
 static Vec3 cubic(const Warp *warp, const NoiseSource *source, Vec3 p)
 {
     (void)warp;
