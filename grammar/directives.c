@@ -52,6 +52,7 @@ int grammar_word_token(Symbol symbol)
         [WORD_IDENTIFIER] = TOKEN_NAME, [WORD_PLAIN] = TOKEN_WORD,        [WORD_COLOUR] = TOKEN_COLOUR,
         [WORD_TEXTURE] = TOKEN_TEXTURE, [WORD_ARRAY] = TOKEN_ARRAY,       [WORD_FUNCTION] = TOKEN_FUNCTION,
         [WORD_BUILTIN] = TOKEN_BUILTIN, [WORD_CONSTANT] = TOKEN_CONSTANT, [WORD_DIRECTIVE] = TOKEN_DIRECTIVE_WORD,
+        [WORD_TERM] = TOKEN_TERM,
     };
     return symbol == W_deprecated ? TOKEN_DEPRECATED : tokens[word_class(symbol)];
 }

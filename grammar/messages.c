@@ -193,6 +193,7 @@ bool grammar_is_reserved(int token)
     case TOKEN_TEXTURE:
     case TOKEN_ARRAY:
     case TOKEN_FUNCTION:
+    case TOKEN_TERM:
     case TOKEN_DIRECTIVE_WORD:
     case TOKEN_DEPRECATED:
         return true;

@@ -66,7 +66,7 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token <symbol> NAME "a name" CONSTANT "a constant" BUILTIN "a function"
 %token <symbol> WORD "a word" COLOUR "a colour word" TEXTURE "texture"
 %token <symbol> DIRECTIVE_WORD "a directive's word" DEPRECATED "deprecated"
-%token <symbol> ARRAY "array" FUNCTION "function"
+%token <symbol> ARRAY "array" FUNCTION "function" TERM "xyz"
 %token LESS_EQUAL "<=" GREATER_EQUAL ">=" NOT_EQUAL "!="
 %token HASH_DECLARE "#declare" HASH_LOCAL "#local" HASH_UNDEF "#undef"
 %token HASH_IF "#if" HASH_IFDEF "#ifdef" HASH_IFNDEF "#ifndef" HASH_ELSEIF "#elseif" HASH_ELSE "#else" HASH_END "#end"
@@ -77,7 +77,7 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token HASH_STATISTICS "#statistics"
 %token HASH_FOPEN "#fopen" HASH_FCLOSE "#fclose" HASH_READ "#read" HASH_WRITE "#write"
 
-%type <node> item block layer entry array function field_size directive simple declare assignment conditional message file case
+%type <node> item term block layer entry array function field_size directive simple declare assignment conditional message file case
 %type <node> otherwise parameter
 %type <node> value initialiser unreadable
 %type <node> full logic relation sum indexed inline include target subject condition
@@ -188,6 +188,7 @@ item:
 | word                              { $$ = LEAF(WORD, $word, @$); }
 | block                             { $$ = $block; }
 | entry                             { $$ = $entry; }
+| term                              { $$ = $term; }
 | array                             { $$ = $array; }
 | function                          { $$ = $function; }
 | directive                         { $$ = $directive; }
@@ -214,6 +215,11 @@ entry:
 | '[' entry_items ',' ']'
     { $$ = LIST(ENTRY, SYMBOL_NONE, @$, ast_flag_last($entry_items, AST_BEFORE_COMMA)); }
 | '[' ']'                           { $$ = LIST(ENTRY, SYMBOL_NONE, @$, EMPTY); }
+;
+
+term:
+  TERM '(' sum[x] comma sum[y] comma sum[z] ')' ':' sum[factor]   %prec JUXTAPOSED
+    { $$ = LISTS(TERM, NONE, $TERM, @$, ast_append(ast_append(ONE($x), $y), $z), ONE($factor), EMPTY); }
 ;
 
 // As items, but after a fault the block around the entry continues, not the entry.
@@ -572,7 +578,7 @@ components:
 member: NAME | reserved;
 
 reserved:
-  CONSTANT | BUILTIN | WORD | COLOUR | TEXTURE | ARRAY | FUNCTION | DIRECTIVE_WORD | DEPRECATED;
+  CONSTANT | BUILTIN | WORD | COLOUR | TEXTURE | ARRAY | FUNCTION | TERM | DIRECTIVE_WORD | DEPRECATED;
 %%
 
 static void grammar_yyerror(Span *at, GrammarState *state, const char *message)

@@ -44,15 +44,15 @@ syn keyword rtlangWord no_bump_scale no_image no_radiosity no_reflection no_shad
 syn keyword rtlangWord normal_map number_of_waves object octaves offset omega omnimax once onion open orient
 syn keyword rtlangWord orientation orthographic ovus panoramic parallel parametric pattern perspective pgm
 syn keyword rtlangWord phase phong phong_size pigment pigment_map pigment_pattern planar plane png point_at
-syn keyword rtlangWord poly poly_wave polygon ppm precision precompute premultiplied prism quadric quartic
-syn keyword rtlangWord quaternion quick_color quick_colour quilted radial radius rainbow ramp_wave reflection
-syn keyword rtlangWord reflection_exponent refraction repeat right ripples rotate roughness scale scallop_wave
-syn keyword rtlangWord shadowless sine_wave sky sky_sphere slice slope slope_map smooth smooth_triangle solid
-syn keyword rtlangWord sor specular sphere sphere_sweep spherical spiral1 spiral2 split_union spotlight
-syn keyword rtlangWord spotted sqr strength sturm superellipsoid text texture texture_map tga thickness
-syn keyword rtlangWord threshold tiff tightness tiles tolerance toroidal torus transform translate triangle
-syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up uv_mapping variance warp
-syn keyword rtlangWord water_level waves width wood wrinkles
+syn keyword rtlangWord poly poly_wave polygon polynomial ppm precision precompute premultiplied prism quadric
+syn keyword rtlangWord quartic quaternion quick_color quick_colour quilted radial radius rainbow ramp_wave
+syn keyword rtlangWord reflection reflection_exponent refraction repeat right ripples rotate roughness scale
+syn keyword rtlangWord scallop_wave shadowless sine_wave sky sky_sphere slice slope slope_map smooth
+syn keyword rtlangWord smooth_triangle solid sor specular sphere sphere_sweep spherical spiral1 spiral2
+syn keyword rtlangWord split_union spotlight spotted sqr strength sturm superellipsoid text texture
+syn keyword rtlangWord texture_map tga thickness threshold tiff tightness tiles tolerance toroidal torus
+syn keyword rtlangWord transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union
+syn keyword rtlangWord up uv_mapping variance warp water_level waves width wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

@@ -94,6 +94,13 @@ void printer_value(Printer *printer, const AstNode *node, int indent)
         printer_put(printer, "[");
         print_block(printer, node->a, indent, "]");
         break;
+    case AST_TERM:
+        printer_put_symbol(printer, node->symbol);
+        printer_put(printer, "(");
+        printer_list(printer, node->a, indent);
+        printer_put(printer, "): ");
+        printer_open_end(printer, node);
+        break;
     case AST_SEQUENCE:
         for (const AstNode *part = node->a; part; part = part->next) {
             printer_put(printer, part == node->a ? "" : " ");

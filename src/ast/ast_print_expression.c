@@ -276,17 +276,17 @@ static bool run_is_closed(const AstNode *node, const AstNode **end)
     }
 }
 
-// Directives whose last expression has no end mark: what follows might continue it.
+// What is not an expression and ends with one, without a mark: what follows might continue it.
 static bool is_open_ended(const AstNode *node)
 {
-    return node->kind == AST_MESSAGE || node->kind == AST_INCLUDE;
+    return node->kind == AST_MESSAGE || node->kind == AST_INCLUDE || node->kind == AST_TERM;
 }
 
-void printer_open_end(Printer *printer, const AstNode *directive)
+void printer_open_end(Printer *printer, const AstNode *item)
 {
-    const AstNode *end;
-    bool closed = ends_with_name(directive->a) && run_is_closed(directive, &end);
-    printer_operand(printer, directive->a, closed ? PRECEDENCE_POSTFIX + 1 : PRECEDENCE_SUM);
+    const AstNode *end, *last = item->kind == AST_TERM ? item->b : item->a;
+    bool closed = ends_with_name(last) && run_is_closed(item, &end);
+    printer_operand(printer, last, closed ? PRECEDENCE_POSTFIX + 1 : PRECEDENCE_SUM);
 }
 
 bool printer_needs_parentheses(const AstNode *node, Neighbours *neighbours)

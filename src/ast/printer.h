@@ -52,7 +52,7 @@ void printer_operand(Printer *printer, const AstNode *node, int precedence);
 // Values with commas between them.
 void printer_list(Printer *printer, const AstNode *list, int indent);
 // The last expression of a directive without an end mark.
-void printer_open_end(Printer *printer, const AstNode *directive);
+void printer_open_end(Printer *printer, const AstNode *item);
 // Whether an item needs parentheses so that it does not continue the one before, nor the next one continues it.
 bool printer_needs_parentheses(const AstNode *node, Neighbours *neighbours);
 

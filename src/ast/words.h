@@ -18,6 +18,7 @@ typedef enum WordClass {
     WORD_TEXTURE,    // texture, which may be layered on the right of a #declare
     WORD_ARRAY,      // array
     WORD_FUNCTION,   // function
+    WORD_TERM,       // xyz, of the coefficients of a polynomial
     WORD_BUILTIN,    // a function with parentheses: sin, vlength, concat
     WORD_CONSTANT,   // a value by itself: x, pi, yes, clock
     WORD_DIRECTIVE,  // reserved because it follows `#`

@@ -325,6 +325,11 @@ static const SchemaProperty poly_arguments[] = {
     {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
 };
 
+static const SchemaProperty polynomial_arguments[] = {
+    {"order", TYPE_INTEGER, AT(PolynomialDesc, order), .range = {RANGE_FAULT, false, 2.0, 35.0},
+     .doc = "the greatest sum of powers; then `xyz(I, J, K): F`, F of F xⁱ yʲ zᵏ, for those that are not 0"},
+};
+
 // ---- isosurface
 
 static const SchemaProperty isosurface_properties[] = {
@@ -1004,6 +1009,15 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .arguments = LIST(poly_arguments),
                    .groups = {LIST(torus_properties), OBJECT_GROUPS},
                    .doc = "The same of order n, which has (n + 1)(n + 2)(n + 3) / 6 coefficients."},
+    [KIND_POLYNOMIAL] = {.word = "polynomial",
+                         .what = "a polynomial",
+                         .size = sizeof(PolynomialDesc),
+                         .defaults = &poly_defaults,
+                         .is_object = true,
+                         .is_declarable = true,
+                         .arguments = LIST(polynomial_arguments),
+                         .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                         .doc = "The same with its coefficients by their powers, in any order."},
     [KIND_BLOB] = {.word = "blob",
                    .what = "a blob",
                    .size = sizeof(BlobDesc),
@@ -1431,7 +1445,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 
 static const SchemaUnsupported unsupported[] = {
     {"media", true, NULL, "smoke, dust and fire, and their light"},
-    {"polynomial", true, NULL, NULL},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},
     {"iff", false, "save the picture as PNG", NULL},

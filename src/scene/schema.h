@@ -29,6 +29,7 @@ typedef enum SchemaKind {
     KIND_CUBIC,
     KIND_QUARTIC,
     KIND_POLY,
+    KIND_POLYNOMIAL,
     KIND_OVUS,
     KIND_BLOB,
     KIND_ISOSURFACE,

@@ -207,6 +207,7 @@ static const char *const arguments[KIND_COUNT] = {
     [KIND_CUBIC] = "<1, 0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,-1>",
     [KIND_QUARTIC] = "<1, 0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0,0,0,0,-1>",
     [KIND_POLY] = "2, <1, 0, 0, 0, 1, 0, 0, 1, 0, -1>",
+    [KIND_POLYNOMIAL] = "2, xyz(2, 0, 0): 1, xyz(0, 0, 0): -1",
     [KIND_PRISM] = "linear_spline 0, 1, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0>",
     [KIND_LATHE] = "linear_spline 2, <0, 0>, <1, 1>",
     [KIND_SUPERELLIPSOID] = "<1, 1>",

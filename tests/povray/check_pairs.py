@@ -55,6 +55,7 @@ LEFT_OUT = {
     "rainbow arc_angle falloff_angle width": "tests/povray/rainbow*.scn have them",
     "slope aoi altitude": "tests/povray/pattern_slope.scn, pattern_aoi.scn and pattern_facing*.scn have them",
     "parametric precompute": "tests/povray/shape_parametric*.scn have them",
+    "polynomial xyz": "tests/povray/shape_polynomial.scn has them",
     "ovus": "tests/povray/shape_ovus*.scn have it",
     "julia_fractal quaternion sqr cube max_iteration precision slice": "tests/povray/shape_julia_fractal*.scn have them",
     "magnet exterior": "tests/povray/pattern_fractal_*.scn have them",

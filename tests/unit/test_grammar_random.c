@@ -317,7 +317,7 @@ static AstNode *make_directive(Bench *bench, unsigned depth)
 
 static AstNode *make_item(Bench *bench, unsigned depth)
 {
-    switch (depth == 0 ? random_below(&bench->random, 5) : random_below(&bench->random, 11)) {
+    switch (depth == 0 ? random_below(&bench->random, 5) : random_below(&bench->random, 12)) {
     case 0:
     case 1:
         return make_word(bench);
@@ -332,6 +332,9 @@ static AstNode *make_item(Bench *bench, unsigned depth)
         return make_directive(bench, depth - 1);
     case 10:
         return make_function(bench, depth - 1);
+    case 11:
+        return make_list(bench, AST_TERM, AST_OP_NONE, W_xyz, make_expressions(bench, depth - 1, 3, 1),
+                         one(make_expression(bench, depth - 1)), (AstList){0});
     default:
         return make_expression(bench, depth);
     }

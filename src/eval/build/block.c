@@ -92,6 +92,7 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_LATHE] = lathe_body,
     [KIND_SOR] = sor_body,
     [KIND_SUPERELLIPSOID] = superellipsoid_body,
+    [KIND_POLYNOMIAL] = polynomial_body,
     [KIND_SPHERE_SWEEP] = sweep_body,
     [KIND_PARAMETRIC] = parametric_body,
     [KIND_JULIA_FRACTAL] = julia_body,

@@ -526,6 +526,7 @@ bool sweep_box(const void *object, OwnBox *own);
 
 // julia.c: Julia fractals
 bool julia_body(Block *block) RT_MUST_CHECK;
+bool polynomial_body(Block *block) RT_MUST_CHECK; // shape_class.c
 bool julia_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool julia_close(Block *block) RT_MUST_CHECK; // this and these as in ShapeClass
 const char *julia_form(const void *object, Primitive *primitive) RT_MUST_CHECK;

@@ -233,6 +233,65 @@ static bool endless_box(const void *object, OwnBox *own)
     return false;
 }
 
+// How many coefficients stand before that of x^i y^j z^k in the order of a poly's.
+static unsigned place_of(unsigned order, const unsigned powers[3])
+{
+    unsigned x = order - powers[0], y = x - powers[1];
+    return x * (x + 1) * (x + 2) / 6 + y * (y + 1) / 2 + y - powers[2];
+}
+
+// What stands in one place of a term, a number.
+static bool term_number(Block *block, const AstNode *item, double *number)
+{
+    Value value;
+    return eval_expression(block->ev, item, &value) && value_number(block->ev, &value, item->span, number) &&
+           block_finite(block, *number, item->span, "xyz");
+}
+
+// Powers lose their fractions. Measured.
+static bool read_term(Block *block, const AstNode *term, double *coefficients)
+{
+    unsigned order = (unsigned)block->record->polynomial.order, powers[3], sum = 0, count = 0;
+    for (const AstNode *item = term->a; item; item = item->next) {
+        double power;
+        if (!term_number(block, item, &power)) {
+            return false;
+        }
+        if (!(power > -1.0 && power < order + 1.0 - sum)) {
+            return block_fault(block, DIAG_E0480, item->span,
+                               "the powers of a term of order %u are at least 0, and %u together at most", order, order);
+        }
+        powers[count] = (unsigned)(int)power;
+        sum += powers[count++];
+    }
+    return term_number(block, term->b, &coefficients[place_of(order, powers)]);
+}
+
+bool polynomial_body(Block *block)
+{
+    PolynomialDesc *polynomial = &block->record->polynomial;
+    if (block->has_fault) { // there may be no order
+        return false;
+    }
+    unsigned count = polynomial_count((unsigned)polynomial->order);
+    double *coefficients = arena_alloc_array(block->arena, count, sizeof *coefficients);
+    if (!coefficients) {
+        return eval_no_memory(block->ev, block->node->span);
+    }
+    memset(coefficients, 0, count * sizeof *coefficients);
+    polynomial->coefficients = (Numbers){coefficients, count};
+    cursor_take_comma(&block->cursor);
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor)) && item->kind == AST_TERM) {
+        if (!read_term(block, item, coefficients)) {
+            block->has_fault = true;
+        }
+        cursor_skip(&block->cursor);
+        cursor_take_comma(&block->cursor);
+    }
+    return true;
+}
+
 static bool polynomial_close(Block *block)
 {
     PolynomialDesc *polynomial = &block->record->polynomial;
@@ -398,6 +457,10 @@ static const ShapeClass classes[KIND_COUNT] = {
                       .holds = polynomial_holds,
                       .box = endless_box},
     [KIND_POLY] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
+    [KIND_POLYNOMIAL] = {.close = polynomial_close,
+                         .form = polynomial_form,
+                         .holds = polynomial_holds,
+                         .box = endless_box},
     [KIND_ISOSURFACE] = {.close = isosurface_close,
                          .form = isosurface_form,
                          .holds = isosurface_has,
