@@ -20,7 +20,9 @@ static bool is_large(size_t bytes)
     return bytes >= huge_page / 4;
 }
 
-void pages_prefer_huge(void *memory, size_t bytes)
+// Asks the system to back fresh memory with huge pages, where it is large enough to gain by it. Only a wish: contents
+// and addresses stay as they are. NULL is allowed.
+static void pages_prefer_huge(void *memory, size_t bytes)
 {
     uintptr_t begin = ((uintptr_t)memory + huge_page - 1) & ~(huge_page - 1);
     uintptr_t end = ((uintptr_t)memory + bytes) & ~(huge_page - 1);

@@ -10,10 +10,6 @@
 
 #include "base/attributes.h"
 
-// Asks the system to back fresh memory with huge pages, where it is large enough to gain by it. Only a wish: contents
-// and addresses stay as they are. NULL is allowed.
-void pages_prefer_huge(void *memory, size_t bytes);
-
 // Memory that is grown to `bytes`: as realloc, but that large memory is moved at once, to where all of it can be huge
 // pages.
 void *pages_grow(void *memory, size_t old_bytes, size_t bytes);

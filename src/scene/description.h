@@ -88,6 +88,7 @@ typedef struct PatternPart {
 typedef struct PigmentDesc {
     PatternPart part;
     Rgbft colour, quick_colour;
+    bool ignored; // a word that changes no picture here
 } PigmentDesc;
 
 // Bumps; with PATTERN_NONE there are none.
@@ -176,6 +177,7 @@ typedef struct LightDesc {
     bool parallel, spotlight, cylinder, shadowless;
     bool is_attenuated; // media_attenuation
     bool is_ignored;    // a word that changes no picture here
+    bool lights_by_area; // area_illumination
 } LightDesc;
 
 typedef struct SphereDesc {

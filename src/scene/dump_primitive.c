@@ -155,6 +155,13 @@ static uint32_t body_interior(const Walk *walk, uint32_t body)
 
 static void dump_node(Walk *walk, const Fill *around, uint8_t hidden, const char *hollow, TextBuffer *out);
 
+// Whether the next child is a node that bounds the one around it.
+static bool next_is_bound(const Walk *walk)
+{
+    const Node *node = walk->node < walk->node_end ? &walk->scene->nodes.items[walk->node] : NULL;
+    return node && node->op == NODE_BOUND && node->first_primitive <= walk->part;
+}
+
 // The next child of a node: the next node of all, or the next primitive, whichever was declared first.
 static void dump_child(Walk *walk, uint32_t parent, const Fill *around, TextBuffer *out)
 {
@@ -171,10 +178,8 @@ static void dump_child(Walk *walk, uint32_t parent, const Fill *around, TextBuff
 static void dump_node(Walk *walk, const Fill *around, uint8_t hidden, const char *hollow, TextBuffer *out)
 {
     static const char *const heads[] = {
-        [NODE_UNION] = "union {\n",
-        [NODE_MERGE] = "merge {\n",
-        [NODE_INTERSECTION] = "intersection {\n",
-        [NODE_CLIP] = "object {\n",
+        [NODE_UNION] = "union {\n", [NODE_MERGE] = "merge {\n",      [NODE_INTERSECTION] = "intersection {\n",
+        [NODE_CLIP] = "object {\n", [NODE_BOUND] = "bounded_by {\n",
     };
     uint32_t at = walk->node++;
     const Node *node = &walk->scene->nodes.items[at];
@@ -182,7 +187,7 @@ static void dump_node(Walk *walk, const Fill *around, uint8_t hidden, const char
     Fill fill = is_body ? (Fill){node->body, body_interior(walk, node->body)} : *around;
     text_append(out, heads[node->op]);
     for (uint32_t i = 0; i < node->child_count; i++) {
-        bool is_clip = node->op == NODE_CLIP && i > 0;
+        bool is_clip = node->op == NODE_CLIP && i > 0 && !next_is_bound(walk);
         text_append(out, is_clip ? "clipped_by { " : "");
         dump_child(walk, at, &fill, out);
         text_append(out, is_clip ? "}\n" : "");

@@ -97,6 +97,51 @@ static bool is_below(const Primitive *inner, Vec3 n, double limit, double limit_
     return primitive_support(inner, n) + error < limit;
 }
 
+// What a matrix stretches lengths by, at most; of a similarity what it stretches all by.
+static double greatest_stretch(const double (*m)[3])
+{
+    double greatest = 0.0;
+    for (int i = 0; i < 3; i++) {
+        double sum = 0.0;
+        for (int k = 0; k < 3; k++) {
+            sum += fabs(m[i][0] * m[k][0] + m[i][1] * m[k][1] + m[i][2] * m[k][2]);
+        }
+        greatest = fmax(greatest, sum);
+    }
+    return sqrt(greatest);
+}
+
+// Whether a ball lies within another, or is the same but for rounding, by the way between their centres and their radii
+// in the other's space.
+static bool ball_holds_ball(const Primitive *outer, const Primitive *inner)
+{
+    const double *centre = inner->to_world.m[3];
+    Transform both = transform_compose(inner->to_world, outer->to_object);
+    Vec3 way = transform_point(&outer->to_object, vec3(centre[0], centre[1], centre[2]));
+    double error = 64.0 * (DBL_EPSILON / 2) *
+                   (1.0 + primitive_reach(inner, vec3(1.0, 1.0, 1.0)) * greatest_stretch(outer->to_object.m));
+    return vec3_length(way) + greatest_stretch(both.m) <= 1.0 + error;
+}
+
+// Whether the box of `inner` along the axes of `outer`, a ball or cylinder, lies within it: its corners do.
+static bool round_holds(const Primitive *outer, const Primitive *inner)
+{
+    const double(*m)[3] = outer->to_object.m;
+    double far[3], low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        Vec3 n = vec3(m[0][axis], m[1][axis], m[2][axis]);
+        double error = 16.0 * (DBL_EPSILON / 2) * (primitive_reach(inner, n) + fabs(m[3][axis]));
+        primitive_span(inner, n, &low[axis], &high[axis]);
+        low[axis] += m[3][axis] - error;
+        high[axis] += m[3][axis] + error;
+        far[axis] = fmax(fabs(low[axis]), fabs(high[axis]));
+    }
+    double square = far[0] * far[0] + far[1] * far[1];
+    return outer->kind == PRIMITIVE_SPHERE
+               ? (inner->kind == PRIMITIVE_SPHERE && ball_holds_ball(outer, inner)) || square + far[2] * far[2] < 1.0
+               : square < 1.0 && low[2] > 0.0 && high[2] < 1.0;
+}
+
 bool primitive_contains(const Primitive *outer, const Primitive *inner)
 {
     if ((outer->flags & PRIMITIVE_INVERSE) || primitive_is_endless(inner)) {
@@ -104,6 +149,10 @@ bool primitive_contains(const Primitive *outer, const Primitive *inner)
     }
     if (outer->kind == PRIMITIVE_PLANE) {
         return is_below(inner, outer->data[0], outer->data[1].x, 0.0);
+    }
+    bool is_cylinder = outer->kind == PRIMITIVE_CONE && outer->data[0].x == 1.0 && !(outer->flags & PRIMITIVE_OPEN);
+    if (outer->kind == PRIMITIVE_SPHERE || is_cylinder) {
+        return round_holds(outer, inner);
     }
     if (outer->kind != PRIMITIVE_BOX) {
         return false;

@@ -31,8 +31,8 @@ void primitive_span(const Primitive *primitive, Vec3 direction, double *low, dou
 // The sum of the magnitudes of all terms of primitive_support, which bounds its rounding error; see docs/numerics.md.
 double primitive_reach(const Primitive *primitive, Vec3 direction);
 
-// True when every point of `inner` is surely inside of `outer`, a box or plane. False for all other kinds, and where it
-// is within rounding.
+// True when every point of `inner` is surely inside of `outer`, a box, plane, sphere, or cylinder that is closed. False
+// for all other kinds, and where it is within rounding, but for two spheres that are the same.
 bool primitive_contains(const Primitive *outer, const Primitive *inner);
 
 #endif

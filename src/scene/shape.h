@@ -139,7 +139,8 @@ typedef enum NodeOp {
     NODE_UNION,        // inside where some child is; all surfaces are seen
     NODE_MERGE,        // likewise; no surface inside of another child is seen
     NODE_INTERSECTION, // inside where all children are
-    NODE_CLIP,         // likewise; all children but the first are unseen
+    NODE_CLIP,         // likewise; all children but the first are unseen, and those that are bounds do not count
+    NODE_BOUND,        // in a NODE_CLIP: a ray that does not come inside of its child sees nothing of the node around
 } NodeOp;
 
 typedef struct Node {
@@ -157,7 +158,7 @@ enum {
     COMPOSITE_PRIMITIVES_MOST = 100000,
     COMPOSITE_NODES_MOST = 200000,
     COMPOSITE_PRIMITIVE_STACK = 96,
-    COMPOSITE_NODE_STACK = 8
+    COMPOSITE_NODE_STACK = 12
 };
 
 // A tree of nodes over primitives. Nodes and primitives stand in the order of the text, a node before what is in it.

@@ -76,8 +76,10 @@ static bool within_node(TreeCursor *at, Vec3 point)
     bool is_root_clip = node->op == NODE_CLIP && node->parent == NODE_NONE;
     bool is_inside = needs_all;
     for (uint32_t i = 0; i < node->child_count; i++) {
+        bool is_bound = at->node < at->node_end && at->scene->nodes.items[at->node].op == NODE_BOUND &&
+                        at->scene->nodes.items[at->node].first_primitive <= at->part;
         bool is_in_child = within_child(at, point);
-        if (!is_root_clip || i < at->start_clips) {
+        if ((!is_root_clip || i < at->start_clips) && !is_bound) {
             is_inside = needs_all ? is_inside && is_in_child : is_inside || is_in_child;
         }
     }

@@ -27,6 +27,9 @@ static bool crossing_shows(const CsgTraversal *p, const Crossing *c, bool is_aft
         const TreeNode *node = &p->table->nodes[at];
         uint32_t inside = p->inside[at - p->csg->first_node];
         uint32_t others = inside - is_child_inside;
+        if (p->missed && p->missed[at - p->csg->first_node] > 0) {
+            return false;
+        }
         bool is_all = node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
         bool judges_after = is_all ? !leaves : leaves;
         if (judges_after == is_after &&
@@ -93,6 +96,66 @@ RT_ALWAYS_INLINE void traversal_set_states(CsgTraversal *p)
     }
     for (uint32_t i = 0; csg->parts && i < csg->parts->loose_count; i++) {
         traversal_set_state(p, csg->parts->loose[i]);
+    }
+}
+
+// Puts the crossings into order.
+static void traversal_order(CsgTraversal *p)
+{
+    for (uint32_t i = p->count / 2; i-- > 0;) {
+        heap_sift(p, i);
+    }
+}
+
+// The node above a primitive that bounds the one around it.
+static uint32_t bound_above(const CsgTraversal *p, const PreparedPrimitive *primitive)
+{
+    uint32_t at = primitive->node;
+    while (p->table->nodes[at].op != NODE_BOUND) {
+        at = p->table->nodes[at].parent;
+    }
+    return at;
+}
+
+// The ray has met a bound if it is inside of it.
+static void bound_judge(CsgTraversal *p, uint32_t at, bool *is_met)
+{
+    const TreeNode *node = &p->table->nodes[at];
+    uint32_t own = at - p->csg->first_node, around = node->parent - p->csg->first_node;
+    if (!is_met[own] && node_is_inside(node, p->inside[own])) {
+        is_met[own] = true;
+        p->missed[around]--;
+    }
+}
+
+// Finds out which bounds the ray meets on its way, as POV-Ray asks them: what lies outside of them is seen, too, by a
+// ray that meets them anywhere. Their crossings are left out then.
+static void traversal_bound(CsgTraversal *p)
+{
+    const CsgTree *csg = p->csg;
+    bool is_met[csg->node_count];
+    memset(is_met, 0, sizeof is_met);
+    memset(p->missed, 0, csg->node_count * sizeof *p->missed);
+    for (uint32_t i = 0; i < csg->node_count; i++) {
+        const TreeNode *node = &p->table->nodes[csg->first_node + i];
+        if (node->op == NODE_BOUND) {
+            p->missed[node->parent - csg->first_node]++;
+            bound_judge(p, csg->first_node + i, is_met);
+        }
+    }
+    uint32_t count = p->count;
+    traversal_order(p);
+    while (p->count > 0) {
+        const Crossing *c = &p->crossings[heap_pop(p)];
+        if (traversal_primitive(p, c->solid)->bounds && !c->is_film) {
+            traversal_toggle(p, c->solid);
+            bound_judge(p, bound_above(p, traversal_primitive(p, c->solid)), is_met);
+        }
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!traversal_primitive(p, p->crossings[i].solid)->bounds) {
+            p->crossings[p->count++] = p->crossings[i];
+        }
     }
 }
 
@@ -173,14 +236,6 @@ RT_ALWAYS_INLINE void traversal_begin(CsgTraversal *p, RayStart start, double li
         if (i + 1 == p->csg->seen_count) {
             traversal_judge_seen(p, limit);
         }
-    }
-}
-
-// Puts the crossings into order.
-static void traversal_order(CsgTraversal *p)
-{
-    for (uint32_t i = p->count / 2; i-- > 0;) {
-        heap_sift(p, i);
     }
 }
 
@@ -384,7 +439,7 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
                               Foremost *first)
 {
     const RayStart start = asked->start;
-    uint32_t inside[csg->node_count];
+    uint32_t inside[csg->node_count], missed[csg->has_bounds ? csg->node_count : 1];
     bool is_inside[csg->primitive_count];
     Crossing crossings[csg->crossing_count];
     RayInterval intervals[csg->interval_most];
@@ -401,6 +456,7 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
                       .first_surface = (double)INFINITY,
                       .greatest_bound = -1.0,
                       .inside = inside,
+                      .missed = csg->has_bounds ? missed : NULL,
                       .is_inside = is_inside,
                       .objects = objects,
                       .crossings = crossings,
@@ -422,6 +478,9 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
         return;
     }
     traversal_set_states(&p);
+    if (RT_UNLIKELY(csg->has_bounds)) {
+        traversal_bound(&p);
+    }
     bool asks_joined = csg->parts && csg->parts->joined != NODE_NONE;
     if (asks_joined) {
         p.reached = (double)INFINITY;

@@ -224,10 +224,10 @@ static void primitive_contract(const PreparedPrimitive *primitive, const Bounds 
 
 // ---- nodes
 
-static void take(const TreeNode *node, Bounds *bounds, Bounds child)
+static void take(const TreeNode *node, Bounds *bounds, const Bounds *child)
 {
     bool joins = node->op == NODE_UNION || node->op == NODE_MERGE;
-    *bounds = joins ? bounds_join(*bounds, child) : bounds_meet(*bounds, child);
+    *bounds = joins ? bounds_join(*bounds, *child) : bounds_meet(*bounds, *child);
 }
 
 // Takes from the boxes of all nodes what their children leave. What is seen within a node lies in the box of the one
@@ -245,15 +245,23 @@ static void contract_nodes(const Boxing *boxing, const Frame *frame)
     }
     for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count; i++) {
         const PreparedPrimitive *primitive = &table->primitives[i];
+        if (primitive->bounds) {
+            continue;
+        }
         Bounds box = inner[primitive->node];
+<<<<<<< HEAD
         primitive_contract(primitive, &boxing->surfaces[i], frame, &box);
         take(&table->nodes[primitive->node], &next[primitive->node], box);
+=======
+        primitive_contract(primitive, &surfaces[i], frame, &box);
+        take(&table->nodes[primitive->node], &next[primitive->node], &box);
+>>>>>>> dev-surv
     }
     for (uint32_t i = end; i-- > first;) {
         const TreeNode *node = &table->nodes[i];
         inner[i] = bounds_meet(inner[i], next[i]);
-        if (i > first) {
-            take(&table->nodes[node->parent], &next[node->parent], node->is_inverse ? inner[node->parent] : inner[i]);
+        if (i > first && node->op != NODE_BOUND) {
+            take(&table->nodes[node->parent], &next[node->parent], &inner[node->is_inverse ? node->parent : i]);
         }
     }
 }
@@ -300,8 +308,10 @@ static void measure_in_frames(const Boxing *boxing, Bounds *bounds)
     }
 }
 
-Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds bounds, Bounds *inner,
-                  Bounds *next)
+// A box that holds what may be seen of the composite and lies within `bounds`, which holds it, too. `inner` and `next`
+// as csg_measure has them; in `inner` what holds all of a node that may matter to what is seen.
+static Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds bounds,
+                         Bounds *inner, Bounds *next)
 {
     const Linear same = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     const Frame frame = {vec3(0.0, 0.0, 0.0), same, same};
@@ -321,7 +331,8 @@ Bounds csg_bounds(const ShapeTable *table, const CsgTree *csg, const Bounds *sur
     return bounds;
 }
 
-Bounds csg_planes_bounds(const ShapeTable *table, const CsgTree *csg)
+// Nothing is seen of a composite outside of the planes that decide; where they enclose a space, the box of that.
+static Bounds csg_planes_bounds(const ShapeTable *table, const CsgTree *csg)
 {
     enum { MOST = 64 }; // more than that only make the box smaller
     HalfSpace spaces[MOST];
@@ -334,4 +345,43 @@ Bounds csg_planes_bounds(const ShapeTable *table, const CsgTree *csg)
         }
     }
     return half_spaces_bounds(spaces, count, &bounds) ? bounds : BOUNDS_ALL;
+}
+
+// What the nodes count of children, from the leaves up, and the box of what is seen: that of the root, of which it does
+// not matter whether it is taken from all space, within that of all surfaces. Children stand behind their parents.
+Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *inner, Bounds *next)
+{
+    uint32_t first = csg->first_node;
+    Bounds surface = BOUNDS_NONE;
+    for (uint32_t i = first; i < first + csg->node_count; i++) {
+        const TreeNode *node = &table->nodes[i];
+        inner[i] = node->op == NODE_UNION || node->op == NODE_MERGE ? BOUNDS_NONE : BOUNDS_ALL;
+    }
+    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count; i++) {
+        TreeNode *node = &table->nodes[table->primitives[i].node];
+        bool is_inverse = table->primitives[i].flags & PRIMITIVE_INVERSE;
+        Bounds bounds = is_inverse ? BOUNDS_ALL : surfaces[i];
+        node->idle_inside += is_inverse;
+        if (table->primitives[i].bounds) {
+            continue;
+        }
+        take(node, &inner[table->primitives[i].node], &bounds);
+        surface = bounds_join(surface, surfaces[i]);
+    }
+    for (uint32_t i = first + csg->node_count; i-- > first + 1;) {
+        const TreeNode *node = &table->nodes[i];
+        TreeNode *parent = &table->nodes[node->parent];
+        if (node->op == NODE_BOUND) {
+            continue;
+        }
+        Bounds bounds = node->is_inverse ? BOUNDS_ALL : inner[i];
+        parent->idle_inside += (node->idle_inside >= node->needed) != node->is_inverse;
+        take(parent, &inner[node->parent], &bounds);
+    }
+    Bounds bounds = bounds_meet(surface, inner[first]);
+    if (!bounds_are_finite(bounds)) {
+        bounds = bounds_meet(bounds, csg_planes_bounds(table, csg));
+    }
+    bool may_be_less = csg->primitive_count > 1 && !bounds_are_finite(surface);
+    return may_be_less ? csg_bounds(table, csg, surfaces, bounds, inner, next) : bounds;
 }

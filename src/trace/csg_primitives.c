@@ -23,7 +23,7 @@ static bool leaf_box(const Boxes *of, uint32_t index, Bounds *box)
     if (!bounds_are_finite(*box) && primitive->node != of->csg->first_node) {
         *box = of->nodes[primitive->node];
     }
-    return !primitive->decides && !primitive_is_mesh(primitive) && bounds_are_finite(*box);
+    return !primitive->decides && !primitive->bounds && !primitive_is_mesh(primitive) && bounds_are_finite(*box);
 }
 
 // Places the leaves' boxes and builds the tree of them; `refs` has room for all.

@@ -39,6 +39,7 @@ typedef struct CsgTraversal {
     double nearest_share;               // none of these that is left is nearer than this share of its t; 0: not known
     double greatest_bound;              // of these; less than 0: not known
     uint32_t *inside;                   // for each node
+    uint32_t *missed;                   // likewise, its bounds that the ray does not meet; NULL: there are none
     uint64_t *met;                      // a bit for each leaf that was asked, where primitives have a tree
     double reached;                     // leaves whose boxes are entered behind that have not been asked yet
     bool
@@ -70,7 +71,7 @@ static void traversal_count(CsgTraversal *p, uint32_t at, bool enters)
         uint32_t *inside = &p->inside[at - p->csg->first_node];
         bool before = node_is_inside(node, *inside);
         *inside = enters ? *inside + 1 : *inside - 1;
-        if (node_is_inside(node, *inside) == before) {
+        if (node_is_inside(node, *inside) == before || node->op == NODE_BOUND) {
             return;
         }
         enters = !before;

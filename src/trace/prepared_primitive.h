@@ -63,6 +63,7 @@ typedef struct PreparedPrimitive {
     bool flips : 1;        // the outside of what the primitive is in is this primitive's inside
     bool is_needed : 1;    // outside of it nothing is seen of the composite
     bool decides : 1;      // likewise, and a line is inside of it once
+    bool bounds : 1;       // it is in a NODE_BOUND
     uint32_t node;         // of the geometry; NODE_NONE alone
     uint32_t composite;    // NODE_NONE alone
     uint32_t twin;         // of a ball: the slot of a sphere that equals it, SLOT_NONE if there is none

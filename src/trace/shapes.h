@@ -40,7 +40,7 @@ typedef struct TreeNode {
     NodeOp op;
     bool is_inverse;
     uint32_t parent;      // of the geometry; NODE_NONE: the root
-    uint32_t child_count;
+    uint32_t child_count; // but for bounds
     uint32_t needed;      // it is inside (before is_inverse) when so many children are
     uint32_t idle_inside; // children that a line is inside of when it crosses no leaf
 } TreeNode;
@@ -57,7 +57,8 @@ typedef struct CsgTree {
     uint8_t hidden;
     bool is_plain;  // all of a few convex primitives in one node
     bool is_meet;   // what convex primitives, any number of them, have in common
-    bool is_convex; // its primitives are
+    bool is_convex : 1;  // its primitives are
+    bool has_bounds : 1; // some of its nodes are
     uint32_t order;
     uint32_t seen_count; // its primitives from there on only clip others
     uint32_t mesh_count;

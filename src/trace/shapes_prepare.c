@@ -99,46 +99,6 @@ static Bounds part_bounds(const Primitive *primitive, int exponent, double down)
 
 // ---- composites
 
-static void node_take(const TreeNode *node, Bounds *bounds, const Bounds *child)
-{
-    bool joins = node->op == NODE_UNION || node->op == NODE_MERGE;
-    *bounds = joins ? bounds_join(*bounds, *child) : bounds_meet(*bounds, *child);
-}
-
-// What the nodes count of children, from the leaves up, and the box of what is seen: that of the root, of which it does
-// not matter whether it is taken from all space, within that of all surfaces. Children stand behind their parents.
-static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *node_bounds,
-                          Bounds *spare)
-{
-    uint32_t first = csg->first_node;
-    Bounds surface = BOUNDS_NONE;
-    for (uint32_t i = first; i < first + csg->node_count; i++) {
-        const TreeNode *node = &table->nodes[i];
-        node_bounds[i] = node->op == NODE_UNION || node->op == NODE_MERGE ? BOUNDS_NONE : BOUNDS_ALL;
-    }
-    for (uint32_t i = csg->first_primitive; i < csg->first_primitive + csg->primitive_count; i++) {
-        TreeNode *node = &table->nodes[table->primitives[i].node];
-        bool is_inverse = table->primitives[i].flags & PRIMITIVE_INVERSE;
-        Bounds bounds = is_inverse ? BOUNDS_ALL : surfaces[i];
-        node->idle_inside += is_inverse;
-        node_take(node, &node_bounds[table->primitives[i].node], &bounds);
-        surface = bounds_join(surface, surfaces[i]);
-    }
-    for (uint32_t i = first + csg->node_count; i-- > first + 1;) {
-        const TreeNode *node = &table->nodes[i];
-        TreeNode *parent = &table->nodes[node->parent];
-        Bounds bounds = node->is_inverse ? BOUNDS_ALL : node_bounds[i];
-        parent->idle_inside += (node->idle_inside >= node->needed) != node->is_inverse;
-        node_take(parent, &node_bounds[node->parent], &bounds);
-    }
-    Bounds bounds = bounds_meet(surface, node_bounds[first]);
-    if (!bounds_are_finite(bounds)) {
-        bounds = bounds_meet(bounds, csg_planes_bounds(table, csg));
-    }
-    bool may_be_less = csg->primitive_count > 1 && !bounds_are_finite(surface);
-    return may_be_less ? csg_bounds(table, csg, surfaces, bounds, node_bounds, spare) : bounds;
-}
-
 static bool node_is_all(const TreeNode *node)
 {
     return node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
@@ -158,6 +118,9 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
     csg->is_meet = csg->node_count == 1 && node_is_all(&table->nodes[csg->first_node]) &&
                    !table->nodes[csg->first_node].is_inverse;
     csg->is_plain = csg->is_meet && csg->primitive_count <= CSG_PLAIN_MOST;
+    for (uint32_t i = csg->first_node; i < csg->first_node + csg->node_count; i++) {
+        csg->has_bounds = csg->has_bounds || table->nodes[i].op == NODE_BOUND;
+    }
     for (uint32_t i = composite->first_primitive; i < composite->first_primitive + composite->primitive_count; i++) {
         PreparedPrimitive *primitive = &table->primitives[i];
         csg->seen_count = primitive->flags & PRIMITIVE_UNSEEN ? csg->seen_count : i + 1 - composite->first_primitive;
@@ -178,6 +141,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
             const TreeNode *node = &table->nodes[at];
             primitive->flips = primitive->flips != node->is_inverse;
             primitive->is_needed = primitive->is_needed && node_is_all(node) && !node->is_inverse;
+            primitive->bounds = primitive->bounds || node->op == NODE_BOUND;
         }
         primitive->decides = primitive->is_needed && primitive_is_convex(primitive);
         csg->is_meet = csg->is_meet && primitive->decides;
@@ -191,6 +155,10 @@ static void nodes_init(ShapeTable *table, const Scene *scene)
         bool is_any = node->op == NODE_UNION || node->op == NODE_MERGE;
         table->nodes[i] =
             (TreeNode){node->op, node->is_inverse, node->parent, node->child_count, is_any ? 1 : node->child_count, 0};
+        if (node->op == NODE_BOUND) { // children stand behind their parents
+            table->nodes[node->parent].child_count--;
+            table->nodes[node->parent].needed--;
+        }
     }
 }
 

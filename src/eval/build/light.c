@@ -137,7 +137,14 @@ static void check_oriented(Block *block, LightArea *area)
 // POV-Ray refuses a circular light of one row.
 bool light_close(Block *block)
 {
+    const LightDesc *light = &block->record->light;
     LightArea *area = &block->record->light.area;
+    bool is_area = area->size1 > 0 || area->size2 > 0;
+    area->is_oriented &= is_area || area->circular; // it turns nothing
+    if (light->lights_by_area && is_area) {
+        block_unsupported(block->ev, "area_illumination", block->node->span, KIND_LIGHT_SOURCE);
+        block->has_unsupported = true;
+    }
     bool is_line = area->size1 < 2 || area->size2 < 2;
     if (area->is_oriented && !is_line) {
         check_oriented(block, area);

@@ -289,8 +289,8 @@ static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Place
     size_t first_primitive = ev->scene->primitives.count;
     bool is_placed = object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
                                            : place_shape(ev, kind, object, outer, inner);
-    if (!is_placed ||
-        (!inner->clips && !extent_reaches_out(kind, object, false) && !has_gaps(ev->scene, first_primitive))) {
+    if (!is_placed || (!place_is_clipped(inner->clips) && !extent_reaches_out(kind, object, false) &&
+                       !has_gaps(ev->scene, first_primitive))) {
         return is_placed;
     }
     BoxOwner own = {kind, object, outer->outer};
@@ -300,7 +300,7 @@ static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Place
 // What a light looks like: an object by itself, but for the texture and interior of what is around.
 static bool place_look(Eval *ev, const LightDesc *light, const Placement *outer)
 {
-    if (!light->look || outer->clips) {
+    if (!light->look || place_is_clipped(outer->clips)) {
         return place_has_no_look(ev, light);
     }
     Placement own = {
@@ -350,7 +350,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
                place_look(ev, object, outer);
     }
     const ObjectPart *part = object;
-    ClipChain own = {outer->clips, part->clips, &outer->outer, !outer->whole};
+    ClipChain own = {outer->clips, part->clips, &outer->outer, !outer->whole, false}, bound;
     BoxOwner whole = {kind, object, outer->outer};
     Placement inner = {
         .outer = transform_compose(part->transform, outer->outer),
@@ -363,7 +363,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .says_double = outer->says_double || part->says_double,
         .interior = part->interior ? part->interior : outer->interior,
         .body = outer->body,
-        .clips = part->clips ? &own : outer->clips,
+        .clips = place_bounds(ev, kind, object, outer, outer->whole, part->clips ? &own : outer->clips, &bound),
         .is_inner = true,
         .is_look = outer->is_look,
         .is_stretched = outer->is_stretched || extent_is_stretched(kind, object),

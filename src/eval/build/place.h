@@ -14,6 +14,7 @@ struct ClipChain {
     const Clip *clips;
     const Transform *outer; // of all around the object that they clip
     bool clips_all;         // and not a member of a union that is one object
+    bool is_bound;          // they only say which rays see it
 };
 
 typedef struct Placement {
@@ -56,6 +57,15 @@ bool place_material(Eval *ev, const void *object, const Primitive *primitive, co
 
 // The materials of a mesh's own textures, which move with it.
 bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement *at, Primitive *primitive) RT_MUST_CHECK;
+
+// What bounds an object in front of what clips and bounds it already, in `link`, where POV-Ray has a bound say which
+// rays see the object: of a group, a polynomial or text, and of any member of a group that is one object. Of other
+// shapes it removes the bound.
+const ClipChain *place_bounds(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, bool is_member,
+                              const ClipChain *clips, ClipChain *link);
+
+// Whether anything in the chain clips, and does not only bound.
+bool place_is_clipped(const ClipChain *chain);
 
 // Whether anything is left to clip `shape`; NULL for what has no end or is not a single shape.
 bool place_clips_matter(Eval *ev, const ClipChain *chain, const Primitive *shape);

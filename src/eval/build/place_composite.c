@@ -4,6 +4,7 @@
 #include "eval/build/place.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "scene/primitive_reach.h"
 #include "scene/primitive.h"
@@ -36,11 +37,94 @@ static bool clip_is_idle(Eval *ev, const Clip *clip, const Transform *outer, con
            primitive_contains(&primitive, shape);
 }
 
+// ---- bounds
+
+// Whether all of an object, clips and bounds left away, surely is inside of what bounds it.
+static bool bound_holds(Eval *ev, const Primitive *bound, SchemaKind kind, const void *object, const Transform *outer)
+{
+    const ObjectPart *part = object;
+    Transform own = transform_compose(part->transform, *outer);
+    Primitive shape;
+    if (kind == KIND_LIGHT_SOURCE) {
+        return true;
+    }
+    if (part->is_inverse) {
+        return false;
+    }
+    if (!object_is_group(kind)) {
+        return kind != KIND_BICUBIC_PATCH && shape_make(ev, kind, object, &own, false, &shape) == SHAPE_MADE &&
+               primitive_contains(bound, &shape);
+    }
+    bool needs_all = kind == KIND_UNION || kind == KIND_MERGE, does = needs_all;
+    const UnionMember *member = ((const UnionDesc *)object)->members;
+    for (; member && does == needs_all; member = kind == KIND_DIFFERENCE ? NULL : member->next) {
+        does = bound_holds(ev, bound, member->kind, member->object, &own);
+    }
+    return does;
+}
+
+static bool bound_is_idle(Eval *ev, const Clip *bound, SchemaKind kind, const void *object, const Transform *outer)
+{
+    const ObjectPart *common = bound->object;
+    Transform whole = transform_compose(transform_compose(common->transform, bound->transform), *outer);
+    Primitive primitive;
+    for (const Clip *clip = ((const ObjectPart *)object)->clips; clip; clip = clip->next) {
+        if (clip->object == bound->object && memcmp(&clip->transform, &bound->transform, sizeof clip->transform) == 0) {
+            return true; // what is seen lies in it
+        }
+    }
+    if (object_is_group(bound->kind) || bound->kind == KIND_BICUBIC_PATCH || common->is_inverse || common->clips ||
+        shape_make(ev, bound->kind, bound->object, &whole, false, &primitive) != SHAPE_MADE) {
+        return false;
+    }
+    if (primitive.kind == PRIMITIVE_BOX) { // one that its object touches cuts nothing either
+        Vec3 room = vec3_scale(0x1p-40, vec3_sub(primitive.data[1], primitive.data[0]));
+        primitive.data[0] = vec3_sub(primitive.data[0], room);
+        primitive.data[1] = vec3_add(primitive.data[1], room);
+    }
+    return bound_holds(ev, &primitive, kind, object, outer);
+}
+
+// Whether there are triangles, of which a ray that has met one does not tell what else it meets.
+static bool has_mesh(SchemaKind kind, const void *object)
+{
+    const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
+    bool does = kind == KIND_MESH || kind == KIND_MESH2 || kind == KIND_HEIGHT_FIELD || kind == KIND_BICUBIC_PATCH;
+    for (; member && !does; member = member->next) {
+        does = has_mesh(member->kind, member->object);
+    }
+    return does;
+}
+
+const ClipChain *place_bounds(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, bool is_member,
+                              const ClipChain *clips, ClipChain *link)
+{
+    const ObjectPart *part = object;
+    bool is_kept = is_member || object_is_group(kind) || kind == KIND_CUBIC || kind == KIND_QUARTIC ||
+                   kind == KIND_POLY || kind == KIND_TEXT;
+    bool matters = false, is_flat = !object_is_group(kind) && (has_mesh(kind, object) || shape_is_flat(kind, object));
+    if (is_flat) { // would only be slower
+        return place_is_clipped(clips) ? clips : NULL;
+    }
+    for (const Clip *bound = is_kept ? part->bounds : NULL; bound && !matters; bound = bound->next) {
+        matters = !has_mesh(bound->kind, bound->object) && !bound_is_idle(ev, bound, kind, object, &outer->outer);
+    }
+    *link = (ClipChain){clips, part->bounds, &outer->outer, false, true};
+    return matters ? link : clips;
+}
+
+bool place_is_clipped(const ClipChain *chain)
+{
+    for (; chain && chain->is_bound; chain = chain->next) {
+    }
+    return chain;
+}
+
 bool place_clips_matter(Eval *ev, const ClipChain *chain, const Primitive *shape)
 {
     for (; chain; chain = chain->next) {
         for (const Clip *clip = chain->clips; clip; clip = clip->next) {
-            if (!shape || !clip_is_idle(ev, clip, chain->outer, shape)) {
+            if (chain->is_bound || !shape || !clip_is_idle(ev, clip, chain->outer, shape)) {
                 return true;
             }
         }
@@ -75,11 +159,17 @@ static bool grow_clips(Eval *ev, const ClipChain *chain, const Primitive *shape,
             scene->composites.items[scene->composites.count - 1].start_clips = scene->nodes.items[node].child_count;
         }
         for (const Clip *clip = chain->clips; clip; clip = clip->next) {
-            if (shape && clip_is_idle(ev, clip, chain->outer, shape)) {
+            bool is_left_out = chain->is_bound ? has_mesh(clip->kind, clip->object)
+                                               : shape && clip_is_idle(ev, clip, chain->outer, shape);
+            if (is_left_out) {
                 continue;
             }
             Branch branch = *object_branch;
             branch.parent = node;
+            if (chain->is_bound &&
+                !add_node(ev, NODE_BOUND, false, &branch, ((const ObjectPart *)clip->object)->span, &branch.parent)) {
+                return false;
+            }
             branch.is_inverse = false;
             branch.is_unseen = true;
             branch.placement.clips = NULL;
@@ -238,6 +328,42 @@ bool place_has_no_look(Eval *ev, const LightDesc *light)
                                       "`looks_like` among shapes that are cut is not supported by rtlang");
 }
 
+static bool has_bounds(const ClipChain *chain)
+{
+    for (; chain && !chain->is_bound; chain = chain->next) {
+    }
+    return chain;
+}
+
+// The object with what clips and bounds it.
+static bool grow_clipped(Eval *ev, SchemaKind kind, const void *object, const ClipChain *clips, const Branch *outer)
+{
+    const ObjectPart *part = object;
+    Branch branch = *outer;
+    Primitive shape;
+    // A clip is not turned round with what it clips: what is outside of a shape reaches beyond any clip.
+    bool is_known = !object_is_group(kind) && kind != KIND_BICUBIC_PATCH && part->is_inverse == branch.is_inverse &&
+                    shape_make(ev, kind, object, &branch.placement.outer, false, &shape) == SHAPE_MADE;
+    const Primitive *known = is_known ? &shape : NULL;
+    if (!place_clips_matter(ev, clips, known)) {
+        return grow_object(ev, kind, object, &branch);
+    }
+    uint32_t node;
+    if (!add_node(ev, NODE_CLIP, false, &branch, part->span, &node)) {
+        return false;
+    }
+    branch.parent = node;
+    // Alone in a group it keeps what bounds it when it is read again.
+    Branch around = branch;
+    bool is_kept = outer->parent != NODE_NONE || object_is_group(kind) || kind == KIND_CUBIC || kind == KIND_QUARTIC ||
+                   has_mesh(kind, object) || shape_is_flat(kind, object);
+    bool is_wrapped = !is_kept && has_bounds(clips);
+    if (is_wrapped && !add_node(ev, NODE_INTERSECTION, false, &around, part->span, &branch.parent)) {
+        return false;
+    }
+    return grow_object(ev, kind, object, &branch) && grow_clips(ev, clips, known, &around, node);
+}
+
 // Recursive, as `place` is.
 static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *outer)
 {
@@ -257,8 +383,13 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
         return eval_fault(ev, DIAG_E0251, part->span,
                           "a light group among shapes that are cut is not supported by rtlang");
     }
-    ClipChain own = {outer->placement.clips, part->clips, &outer->placement.outer, !outer->placement.whole};
+    ClipChain own = {outer->placement.clips, part->clips, &outer->placement.outer, !outer->placement.whole, false},
+              bound;
     const ClipChain *clips = part->clips ? &own : outer->placement.clips;
+    if (!outer->is_inside) {
+        bool is_member = outer->parent != NODE_NONE || outer->placement.whole;
+        clips = place_bounds(ev, kind, object, &outer->placement, is_member, clips, &bound);
+    }
     branch.placement.clips = NULL;
     branch.placement.outer = transform_compose(part->transform, outer->placement.outer);
     if (part->texture) {
@@ -277,23 +408,7 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
     }
     branch.placement.is_inner = true;
     branch.placement.is_hollow = outer->placement.is_inner ? outer->placement.is_hollow : place_is_hollow(kind, object);
-    if (!clips) {
-        return grow_object(ev, kind, object, &branch);
-    }
-    Primitive shape;
-    // A clip is not turned round with what it clips: what is outside of a shape reaches beyond any clip.
-    bool is_known = !object_is_group(kind) && kind != KIND_BICUBIC_PATCH && part->is_inverse == branch.is_inverse &&
-                    shape_make(ev, kind, object, &branch.placement.outer, false, &shape) == SHAPE_MADE;
-    const Primitive *known = is_known ? &shape : NULL;
-    if (!place_clips_matter(ev, clips, known)) {
-        return grow_object(ev, kind, object, &branch);
-    }
-    uint32_t node;
-    if (!add_node(ev, NODE_CLIP, false, &branch, part->span, &node)) {
-        return false;
-    }
-    branch.parent = node;
-    return grow_object(ev, kind, object, &branch) && grow_clips(ev, clips, known, &branch, node);
+    return !clips ? grow_object(ev, kind, object, &branch) : grow_clipped(ev, kind, object, clips, &branch);
 }
 
 bool place_composite(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner)
