@@ -28,7 +28,7 @@ SHARE_OF_ONE = 1e-3
 FORGIVEN_CODES, FORGIVEN_SHARE = 0.004 * 65535, 0.02
 # Words of the schema that no generated scene has, and why.
 LEFT_OUT = {
-    "max_intersections mm_per_unit quick_color quick_colour media_interaction media_attenuation": "they change no picture",
+    "max_intersections mm_per_unit quick_color quick_colour media_interaction media_attenuation area_illumination": "they change no picture",
     "blob threshold component hierarchy": "POV-Ray's roots of blobs have too few digits behind glass; tests/povray/*.scn"
     " have them",
     "sor": "POV-Ray's roots of it have too few digits where rays are nearly at right angles to its axis; tests/povray/*.scn"
