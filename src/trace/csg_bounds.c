@@ -249,13 +249,8 @@ static void contract_nodes(const Boxing *boxing, const Frame *frame)
             continue;
         }
         Bounds box = inner[primitive->node];
-<<<<<<< HEAD
         primitive_contract(primitive, &boxing->surfaces[i], frame, &box);
-        take(&table->nodes[primitive->node], &next[primitive->node], box);
-=======
-        primitive_contract(primitive, &surfaces[i], frame, &box);
         take(&table->nodes[primitive->node], &next[primitive->node], &box);
->>>>>>> dev-surv
     }
     for (uint32_t i = end; i-- > first;) {
         const TreeNode *node = &table->nodes[i];

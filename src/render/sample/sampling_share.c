@@ -188,9 +188,7 @@ static bool strata_add(Builder *builder, const Outline *outlines, int count, con
     Share *share = builder->share;
     if (builder->used + (size_t)STRATA_MOST > share->capacity) {
         size_t capacity = 2 * share->capacity + 64 * STRATA_MOST;
-    builder->cover = pages_grow(NULL, 0, pixels * sizeof *builder->cover);
-    builder->first = cleared_new(pixels + 1, sizeof *builder->first);
-    if (!builder->cover || !builder->first) {
+        ShareStratum *strata = pages_grow(share->strata, builder->used * sizeof *strata, capacity * sizeof *strata);
         if (!strata) {
             return false;
         }
@@ -229,9 +227,10 @@ static bool pixel_take(Builder *builder, size_t pixel, const Crossed *crossed)
 static bool builder_take_all(Builder *builder)
 {
     size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
-    builder->cover = pages_grow(NULL, 0, pixels * sizeof *builder->cover);
-    builder->first = cleared_new(pixels + 1, sizeof *builder->first);
-    if (!builder->cover || !builder->first) {
+    Share *share = builder->share;
+    uint32_t *first = builder->first;
+    share->pixels = malloc((builder->crossed_count + 1) * sizeof *share->pixels);
+    bool has_memory = share->pixels;
     for (size_t pixel = 0; has_memory && pixel < pixels; pixel++) {
         const Crossed *crossed = first[pixel] > 0 ? &builder->crossed[first[pixel] - 1] : NULL;
         first[pixel] = builder->used;
