@@ -25,34 +25,35 @@ syn keyword rtlangConstant array clock clock_on false function no now off on pi 
 syn keyword rtlangColour alpha blue color colour filter gray green red rgb rgbf rgbft rgbt srgb srgbf srgbft
 syn keyword rtlangColour srgbt transmit
 syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo all_intersections altitude
-syn keyword rtlangWord ambient ambient_light angle aoi aperture arc_angle area_light assumed_gamma average
-syn keyword rtlangWord background bicubic_patch black_hole blob blur_samples bounded_by box boxed bozo brick
-syn keyword rtlangWord brick_size brilliance bump_map bump_size bumps camera caustics cells charset checker
-syn keyword rtlangWord circular clipped_by color_map colour_map component cone confidence conserve_energy
-syn keyword rtlangWord contained_by control0 control1 crackle crand cube cubic cubic_wave cylinder cylindrical
-syn keyword rtlangWord dents difference diffuse direction disc dist_exp distance double_illuminate emission
-syn keyword rtlangWord evaluate exponent exr exterior fade_color fade_colour fade_distance fade_power falloff
-syn keyword rtlangWord falloff_angle finish fisheye flip focal_point fog fog_alt fog_offset fog_type form
-syn keyword rtlangWord frequency fresnel gamma global_lights global_settings gradient granite hdr height_field
-syn keyword rtlangWord hexagon hf_gray_16 hierarchy hollow image_map image_pattern inside_vector interior
-syn keyword rtlangWord interior_texture interpolate intersection inverse ior irid irid_wavelength isosurface
-syn keyword rtlangWord jitter jpeg julia julia_fractal lambda lathe leopard light_group light_source location
-syn keyword rtlangWord look_at looks_like magnet major_radius mandel map_type marble material material_map
-syn keyword rtlangWord matrix max_gradient max_intersections max_iteration max_trace max_trace_level
-syn keyword rtlangWord media_attenuation media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar
-syn keyword rtlangWord no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator normal
-syn keyword rtlangWord normal_map number_of_waves object octaves offset omega omnimax once onion open orient
-syn keyword rtlangWord orientation orthographic ovus panoramic parallel parametric pattern perspective pgm
-syn keyword rtlangWord phase phong phong_size pigment pigment_map pigment_pattern planar plane png point_at
-syn keyword rtlangWord poly poly_wave polygon polynomial ppm precision precompute premultiplied prism quadric
-syn keyword rtlangWord quartic quaternion quick_color quick_colour quilted radial radius rainbow ramp_wave
-syn keyword rtlangWord reflection reflection_exponent refraction repeat right ripples rotate roughness scale
-syn keyword rtlangWord scallop_wave shadowless sine_wave sky sky_sphere slice slope slope_map smooth
-syn keyword rtlangWord smooth_triangle solid sor specular sphere sphere_sweep spherical spiral1 spiral2
-syn keyword rtlangWord split_union spotlight spotted sqr strength sturm superellipsoid text texture
-syn keyword rtlangWord texture_map tga thickness threshold tiff tightness tiles tolerance toroidal torus
-syn keyword rtlangWord transform translate triangle triangle_wave turb_depth turbulence ultra_wide_angle union
-syn keyword rtlangWord up uv_mapping variance warp water_level waves width wood wrinkles
+syn keyword rtlangWord ambient ambient_light angle aoi aperture arc_angle area_illumination area_light
+syn keyword rtlangWord assumed_gamma average background bicubic_patch black_hole blob blur_samples bounded_by
+syn keyword rtlangWord box boxed bozo brick brick_size brilliance bump_map bump_size bumps camera caustics
+syn keyword rtlangWord cells charset checker circular clipped_by color_map colour_map component cone
+syn keyword rtlangWord confidence conserve_energy contained_by control0 control1 crackle crand cube cubic
+syn keyword rtlangWord cubic_wave cylinder cylindrical dents difference diffuse direction disc dist_exp
+syn keyword rtlangWord distance double_illuminate emission evaluate exponent exr exterior fade_color
+syn keyword rtlangWord fade_colour fade_distance fade_power falloff falloff_angle finish fisheye flip
+syn keyword rtlangWord focal_point fog fog_alt fog_offset fog_type form frequency fresnel gamma global_lights
+syn keyword rtlangWord global_settings gradient granite hdr height_field hexagon hf_gray_16 hierarchy hollow
+syn keyword rtlangWord image_map image_pattern inside_vector interior interior_texture interpolate
+syn keyword rtlangWord intersection inverse ior irid irid_wavelength isosurface jitter jpeg julia
+syn keyword rtlangWord julia_fractal lambda lathe leopard light_group light_source location look_at looks_like
+syn keyword rtlangWord magnet major_radius mandel map_type marble material material_map matrix max_gradient
+syn keyword rtlangWord max_intersections max_iteration max_trace max_trace_level media_attenuation
+syn keyword rtlangWord media_interaction merge mesh mesh2 metallic metric mm_per_unit mortar no_bump_scale
+syn keyword rtlangWord no_image no_radiosity no_reflection no_shadow noise_generator normal normal_map
+syn keyword rtlangWord number_of_waves object octaves offset omega omnimax once onion open orient orientation
+syn keyword rtlangWord orthographic ovus panoramic parallel parametric pattern perspective pgm phase phong
+syn keyword rtlangWord phong_size pigment pigment_map pigment_pattern planar plane png point_at poly poly_wave
+syn keyword rtlangWord polygon polynomial ppm precision precompute premultiplied prism quadric quartic
+syn keyword rtlangWord quaternion quick_color quick_colour quilted radial radius rainbow ramp_wave reflection
+syn keyword rtlangWord reflection_exponent refraction repeat right ripples rotate roughness scale scallop_wave
+syn keyword rtlangWord shadowless sine_wave sky sky_sphere slice slope slope_map smooth smooth_triangle solid
+syn keyword rtlangWord sor specular sphere sphere_sweep spherical spiral1 spiral2 split_union spotlight
+syn keyword rtlangWord spotted sqr strength sturm superellipsoid text texture texture_map tga thickness
+syn keyword rtlangWord threshold tiff tightness tiles tolerance toroidal torus transform translate triangle
+syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up uv_mapping variance warp
+syn keyword rtlangWord water_level waves width wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

@@ -328,7 +328,7 @@ static const SchemaProperty poly_arguments[] = {
 
 static const SchemaProperty polynomial_arguments[] = {
     {"order", TYPE_INTEGER, AT(PolynomialDesc, order), .range = {RANGE_FAULT, false, 2.0, 35.0},
-     .doc = "the greatest sum of powers; then `xyz(I, J, K): F`, F of F xⁱ yʲ zᵏ, for those that are not 0"},
+     .doc = "the greatest sum of powers; then its terms"},
 };
 
 // ---- isosurface
@@ -1019,7 +1019,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                          .is_declarable = true,
                          .arguments = LIST(polynomial_arguments),
                          .groups = {LIST(torus_properties), OBJECT_GROUPS},
-                         .doc = "The same with its coefficients by their powers, in any order."},
+                         .doc = "The same, term by term in any order: `xyz(I, J, K): F` is F xⁱ yʲ zᵏ."},
     [KIND_BLOB] = {.word = "blob",
                    .what = "a blob",
                    .size = sizeof(BlobDesc),
