@@ -39,6 +39,17 @@ static bool clip_is_idle(Eval *ev, const Clip *clip, const Transform *outer, con
 
 // ---- bounds
 
+// Whether there are triangles, of which a ray that has met one does not tell what else it meets.
+static bool has_mesh(SchemaKind kind, const void *object)
+{
+    const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
+    bool does = kind == KIND_MESH || kind == KIND_MESH2 || kind == KIND_HEIGHT_FIELD || kind == KIND_BICUBIC_PATCH;
+    for (; member && !does; member = member->next) {
+        does = has_mesh(member->kind, member->object);
+    }
+    return does;
+}
+
 // Whether all of an object, clips and bounds left away, surely is inside of what bounds it.
 static bool bound_holds(Eval *ev, const Primitive *bound, SchemaKind kind, const void *object, const Transform *outer)
 {
@@ -63,37 +74,43 @@ static bool bound_holds(Eval *ev, const Primitive *bound, SchemaKind kind, const
     return does;
 }
 
-static bool bound_is_idle(Eval *ev, const Clip *bound, SchemaKind kind, const void *object, const Transform *outer)
+// The shape of a bound, if it can be told whether it holds others.
+static bool bound_make(Eval *ev, const Clip *bound, const Transform *outer, Primitive *primitive)
 {
     const ObjectPart *common = bound->object;
     Transform whole = transform_compose(transform_compose(common->transform, bound->transform), *outer);
+    if (object_is_group(bound->kind) || bound->kind == KIND_BICUBIC_PATCH || common->is_inverse || common->clips ||
+        shape_make(ev, bound->kind, bound->object, &whole, false, primitive) != SHAPE_MADE) {
+        return false;
+    }
+    if (primitive->kind == PRIMITIVE_BOX) { // one that its object touches cuts nothing either
+        Vec3 room = vec3_scale(0x1p-40, vec3_sub(primitive->data[1], primitive->data[0]));
+        primitive->data[0] = vec3_sub(primitive->data[0], room);
+        primitive->data[1] = vec3_add(primitive->data[1], room);
+    }
+    return true;
+}
+
+static bool bound_is_idle(Eval *ev, const Clip *bound, SchemaKind kind, const void *object, const Transform *outer)
+{
     Primitive primitive;
     for (const Clip *clip = ((const ObjectPart *)object)->clips; clip; clip = clip->next) {
         if (clip->object == bound->object && memcmp(&clip->transform, &bound->transform, sizeof clip->transform) == 0) {
             return true; // what is seen lies in it
         }
     }
-    if (object_is_group(bound->kind) || bound->kind == KIND_BICUBIC_PATCH || common->is_inverse || common->clips ||
-        shape_make(ev, bound->kind, bound->object, &whole, false, &primitive) != SHAPE_MADE) {
-        return false;
-    }
-    if (primitive.kind == PRIMITIVE_BOX) { // one that its object touches cuts nothing either
-        Vec3 room = vec3_scale(0x1p-40, vec3_sub(primitive.data[1], primitive.data[0]));
-        primitive.data[0] = vec3_sub(primitive.data[0], room);
-        primitive.data[1] = vec3_add(primitive.data[1], room);
-    }
-    return bound_holds(ev, &primitive, kind, object, outer);
+    return bound_make(ev, bound, outer, &primitive) && bound_holds(ev, &primitive, kind, object, outer);
 }
 
-// Whether there are triangles, of which a ray that has met one does not tell what else it meets.
-static bool has_mesh(SchemaKind kind, const void *object)
+// Of one in a chain, for a shape, NULL where it is not known.
+static bool link_is_idle(Eval *ev, const ClipChain *chain, const Clip *clip, const Primitive *shape)
 {
-    const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
-    bool does = kind == KIND_MESH || kind == KIND_MESH2 || kind == KIND_HEIGHT_FIELD || kind == KIND_BICUBIC_PATCH;
-    for (; member && !does; member = member->next) {
-        does = has_mesh(member->kind, member->object);
+    Primitive bound;
+    if (!chain->is_bound) {
+        return shape && clip_is_idle(ev, clip, chain->outer, shape);
     }
-    return does;
+    return has_mesh(clip->kind, clip->object) ||
+           (shape && bound_make(ev, clip, chain->outer, &bound) && primitive_contains(&bound, shape));
 }
 
 const ClipChain *place_bounds(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, bool is_member,
@@ -124,7 +141,7 @@ bool place_clips_matter(Eval *ev, const ClipChain *chain, const Primitive *shape
 {
     for (; chain; chain = chain->next) {
         for (const Clip *clip = chain->clips; clip; clip = clip->next) {
-            if (chain->is_bound || !shape || !clip_is_idle(ev, clip, chain->outer, shape)) {
+            if (!link_is_idle(ev, chain, clip, shape)) {
                 return true;
             }
         }
@@ -159,9 +176,7 @@ static bool grow_clips(Eval *ev, const ClipChain *chain, const Primitive *shape,
             scene->composites.items[scene->composites.count - 1].start_clips = scene->nodes.items[node].child_count;
         }
         for (const Clip *clip = chain->clips; clip; clip = clip->next) {
-            bool is_left_out = chain->is_bound ? has_mesh(clip->kind, clip->object)
-                                               : shape && clip_is_idle(ev, clip, chain->outer, shape);
-            if (is_left_out) {
+            if (link_is_idle(ev, chain, clip, shape)) {
                 continue;
             }
             Branch branch = *object_branch;
@@ -314,11 +329,15 @@ static bool grow_members(Eval *ev, SchemaKind kind, const UnionDesc *group, cons
 static bool grow_object(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
 {
     switch (kind) {
-    case KIND_UNION: return grow_members(ev, kind, object, branch, NODE_UNION);
-    case KIND_MERGE: return grow_members(ev, kind, object, branch, NODE_MERGE);
+    case KIND_UNION:
+        return grow_members(ev, kind, object, branch, NODE_UNION);
+    case KIND_MERGE:
+        return grow_members(ev, kind, object, branch, NODE_MERGE);
     case KIND_INTERSECTION:
-    case KIND_DIFFERENCE: return grow_members(ev, kind, object, branch, NODE_INTERSECTION);
-    default: return grow_leaf(ev, kind, object, branch);
+    case KIND_DIFFERENCE:
+        return grow_members(ev, kind, object, branch, NODE_INTERSECTION);
+    default:
+        return grow_leaf(ev, kind, object, branch);
     }
 }
 
