@@ -145,6 +145,15 @@ static void prism_dump(const Primitive *primitive, TextBuffer *out)
     outline_dump(primitive, out);
 }
 
+// One with curves was a prism without a height, and is written as that.
+static void polygon_dump(const Primitive *primitive, TextBuffer *out)
+{
+    bool is_curved = outline_degree(&primitive->list) > 1;
+    text_append(out, is_curved ? "prism { bezier_spline 0, 0, " : "polygon { ");
+    outline_dump(primitive, out);
+    text_append(out, is_curved ? " rotate -90*x" : "");
+}
+
 static double polygon_support(const Primitive *primitive, Vec3 n)
 {
     return outline_support(&primitive->list, (OutlinePoint){n.x, n.y});
@@ -358,14 +367,14 @@ const PrimitiveClass primitive_class_prism = {
 
 const PrimitiveClass primitive_class_polygon = {
     .word = "polygon",
-    .head = "polygon { ",
+    .head = "", // polygon_dump has it
     .family = FAMILY_STRAIGHT,
     .surface = PRIMITIVE_POLYGON,
     .key_count = 3,
     .has_list = true,
     .is_sized = true,
     .support = polygon_support,
-    .dump = outline_dump,
+    .dump = polygon_dump,
     .measure = primitive_box_measure,
 };
 

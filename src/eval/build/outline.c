@@ -414,12 +414,36 @@ static void prism_extent(const PrismDesc *prism, OutlinePoint low, OutlinePoint 
     }
 }
 
+// What an outline in the plane z = 0 encloses.
+static void flat_form(const Numbers *outline, Primitive *primitive)
+{
+    OutlinePoint low, high;
+    outline_bounds(outline, &low, &high);
+    primitive->kind = PRIMITIVE_POLYGON;
+    primitive->list = *outline;
+    primitive->fixed[0] = vec3(low.u, low.v, 0.0);
+    primitive->fixed[1] = vec3(high.u, high.v, 0.0);
+}
+
+// Without a height, its ends are one flat shape.
+static const char *flat_prism_form(const PrismDesc *prism, Primitive *primitive)
+{
+    double height = prism->heights[0], size = outline_is_conic(&prism->outline) ? height : 1.0;
+    if (prism->is_open || size == 0.0) {
+        return prism->is_open ? "an open prism without a height is not drawn" : "the tip of a prism is not drawn";
+    }
+    flat_form(&prism->outline, primitive);
+    // Its coordinates are x and z of the prism.
+    primitive->to_world = (Transform){{{size, 0.0, 0.0}, {0.0, 0.0, size}, {0.0, -1.0, 0.0}, {0.0, height, 0.0}}};
+    return NULL;
+}
+
 const char *prism_form(const void *object, Primitive *primitive)
 {
     const PrismDesc *prism = object;
     OutlinePoint low, high;
     if (prism->heights[0] == prism->heights[1]) {
-        return "a prism without a height is not drawn";
+        return flat_prism_form(prism, primitive);
     }
     outline_bounds(&prism->outline, &low, &high);
     primitive->kind = PRIMITIVE_PRISM;
@@ -452,15 +476,10 @@ bool prism_box(const void *object, OwnBox *own)
 const char *polygon_form(const void *object, Primitive *primitive)
 {
     const PolygonDesc *polygon = object;
-    OutlinePoint low, high;
     if (polygon->outline.count == 0) {
         return "a polygon with its points on one line is not drawn";
     }
-    outline_bounds(&polygon->outline, &low, &high);
-    primitive->kind = PRIMITIVE_POLYGON;
-    primitive->list = polygon->outline;
-    primitive->fixed[0] = vec3(low.u, low.v, 0.0);
-    primitive->fixed[1] = vec3(high.u, high.v, 0.0);
+    flat_form(&polygon->outline, primitive);
     primitive->to_world = polygon->frame;
     return NULL;
 }

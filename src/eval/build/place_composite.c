@@ -99,11 +99,30 @@ static bool grow_empty(Eval *ev, const ObjectPart *part, const Branch *branch)
     return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch, part->span, &node);
 }
 
-// A sphere of radius 0 is one. With any other shape without extent POV-Ray draws
-// nothing of the whole.
+// Whether a shape without extent is an empty part. Of a composite that holds a cylinder or flat shape without extent
+// POV-Ray draws nothing at all, and a polynomial that is the same everywhere may have all of space inside.
+static bool is_empty_part(SchemaKind kind)
+{
+    switch (kind) {
+    case KIND_CYLINDER:
+    case KIND_CONE:
+    case KIND_DISC:
+    case KIND_TRIANGLE:
+    case KIND_SMOOTH_TRIANGLE:
+    case KIND_POLYGON:
+    case KIND_QUADRIC:
+    case KIND_CUBIC:
+    case KIND_QUARTIC:
+    case KIND_POLY:
+        return false;
+    default:
+        return true;
+    }
+}
+
 static bool grow_nothing(Eval *ev, SchemaKind kind, const ObjectPart *part, const Branch *branch)
 {
-    if (kind != KIND_SPHERE) {
+    if (!is_empty_part(kind)) {
         return eval_fault(ev, DIAG_E0364, part->span, "a %s without extent cannot be cut with other shapes",
                           schema_kind(kind)->word);
     }
@@ -148,8 +167,9 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     const Node *parent = &ev->scene->nodes.items[branch->parent];
     bool is_clipped_alone = parent->op == NODE_CLIP && parent->child_count == 0 && parent->parent == NODE_NONE;
     if (primitive_kind_is_sheet(primitive.kind) && !is_clipped_alone && !branch->is_inside) {
-        return eval_fault(ev, DIAG_E0362, common->span, "a %s has no inside, so nothing can be cut with it",
-                          primitive_class(primitive_class(primitive.kind)->surface)->word);
+        const char *word = kind == KIND_PRISM ? "prism without a height"
+                                              : primitive_class(primitive_class(primitive.kind)->surface)->word;
+        return eval_fault(ev, DIAG_E0362, common->span, "a %s has no inside, so nothing can be cut with it", word);
     }
     if (ev->scene->primitives.count - composite->first_primitive >= COMPOSITE_PRIMITIVES_MOST) {
         return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
