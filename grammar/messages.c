@@ -101,6 +101,7 @@ static ExpectedClass expected_class(const char *name)
         {"texture", EXPECT_WORD},
         {"array", EXPECT_WORD},
         {"function", EXPECT_WORD},
+        {"xyz", EXPECT_WORD},
         {"#declare", EXPECT_ITEM},
         {"#if", EXPECT_NOTHING},
         {"#ifdef", EXPECT_NOTHING},

@@ -23,11 +23,11 @@ light_source { <5, 5, -5> rgb 1 [[photons { reflection on }]] }
 [[media { emission 0.1 }]]
 #declare Metal = finish { [[subsurface { translucency 0.3 }]] phong 0.5 reflection 0.2 };
 #declare Skin = texture { pigment { rgb <0.8, 0.3, 0.2> } finish { Metal } };
-union { [[polynomial { 2, 0.1 }]] sphere { <-1, 0, 0>, 1 } sphere { <1, 0, 0>, 1 } texture { Skin } }
+union { sphere { <-1, 0, 0>, 1 } sphere { <1, 0, 0>, 1 } texture { Skin } }
 sphere { <0, 1, -1>, 0.4 pigment { rgbt 0.8 } interior { ior 1.4 [[media { absorption 1 }]] [[dispersion 1.1]] } }
 #declare Unused = texture { pigment { facets } };
 """
-WARNING = ("drawn without radiosity in global_settings, photons in global_settings, media, polynomial, subsurface in finish, "
+WARNING = ("drawn without radiosity in global_settings, photons in global_settings, media, subsurface in finish, "
            "dispersion in interior")
 
 

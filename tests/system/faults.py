@@ -47,7 +47,7 @@ sphere { 0, 1 pigment { rgb "red" } }
     "endless_recursion": b"#macro Again(N)\n  Again(N + 1)\n#end\nAgain(0)\n",
     "endless_loop": b"#while (1)\n#end\n",
     "unclosed_if": b"#if (1)\nsphere { 0, 1 }\n",
-    "not_supported": b"polynomial { 1, 0.2 }\nsphere { 0, 1 pigment { facets } }\n",
+    "not_supported": b"scattering { 1, 0.2 }\nsphere { 0, 1 pigment { facets } }\n",
     "not_finite": b"#declare A = 1e308 * 10;\nsphere { <A, 0, 0>, 1 }\n",
     "many_faults": b"".join(b"sphere { Name_%d, 1 }\n" % i for i in range(30)),
     "data_file": b"""#fopen File "data.txt" read

@@ -259,7 +259,8 @@ static bool read_term(Block *block, const AstNode *term, double *coefficients)
         }
         if (!(power > -1.0 && power < order + 1.0 - sum)) {
             return block_fault(block, DIAG_E0480, item->span,
-                               "the powers of a term of order %u are at least 0, and %u together at most", order, order);
+                               "the powers of a term of order %u are at least 0, and %u together at most", order,
+                               order);
         }
         powers[count] = (unsigned)(int)power;
         sum += powers[count++];
