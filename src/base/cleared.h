@@ -5,20 +5,9 @@
 #ifndef BASE_CLEARED_H
 #define BASE_CLEARED_H
 
-#include <stdint.h>
-#include <string.h>
+#include <stddef.h>
 
-#include "base/pages.h"
-
-// For `free`. NULL when out of memory.
-static inline void *cleared_new(size_t count, size_t size)
-{
-    size_t bytes = count * size;
-    if (size > 0 && count > SIZE_MAX / size) {
-        return NULL;
-    }
-    void *memory = pages_grow(NULL, 0, bytes > 0 ? bytes : 1);
-    return memory ? memset(memory, 0, bytes) : NULL;
-}
+// For `free`. NULL when out of memory. What is too large to be cleared within a moment is cleared as it is touched.
+void *cleared_new(size_t count, size_t size);
 
 #endif

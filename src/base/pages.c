@@ -12,6 +12,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "base/cleared.h"
+
 static const size_t huge_page = (size_t)2 << 20;
 
 // What is smaller would waste more memory than the faults are worth, which a huge page saves.
@@ -131,4 +133,19 @@ void pages_give(Pages *pages)
         free(pages->memory);
     }
     *pages = (Pages){0};
+}
+
+void *cleared_new(size_t count, size_t size)
+{
+    static const size_t at_once = (size_t)64 << 20;
+    if (size > 0 && count > SIZE_MAX / size) {
+        return NULL;
+    }
+    size_t bytes = count * size > 0 ? count * size : 1;
+    void *memory = bytes > at_once ? calloc(bytes, 1) : pages_grow(NULL, 0, bytes);
+    if (bytes > at_once) {
+        pages_prefer_huge(memory, bytes);
+        return memory;
+    }
+    return memory ? memset(memory, 0, bytes) : NULL;
 }

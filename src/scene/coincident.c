@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/cleared.h"
+#include "base/pages.h"
 #include "base/parallel.h"
 #include "scene/opaque.h"
 #include "scene/primitive_reach.h"

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "base/cleared.h"
+#include "base/pages.h"
 #include "scene/primitive_reach.h"
 #include "scene/primitive.h"
 #include "scene/range.h"

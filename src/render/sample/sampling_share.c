@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "base/cleared.h"
+#include "base/pages.h"
 #include "render/sample/sampling_batch.h"
 #include "trace/extent.h"
 
