@@ -20,17 +20,17 @@ import survey_times  # noqa: E402
 SURVEY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "survey.py")
 SCENES = {
     "accepted.pov": '#version 3.7; global_settings { assumed_gamma 1 }\n#include "part.inc"\n',
-    "refused.pov": '#version 3.7;\n/* prism */ #declare Word = "lathe"; // blob\npolynomial { 2, 1 }\n',
-    "packed.pov.gz": '#version 3.7;\nsphere { 0, 1 }\npolynomial { 2, 1 }\nmedia { }\n',
+    "refused.pov": '#version 3.7;\n/* prism */ #declare Word = "lathe"; // blob\nradiosity { }\n',
+    "packed.pov.gz": '#version 3.7;\nsphere { 0, 1 }\nradiosity { }\nmedia { }\n',
     "part.inc": "sphere { 0, 1 pigment { rgb 1 } finish { ambient 1 } }\n",
 }
-POLYNOMIAL, MEDIA = "E0252 polynomial", "E0252 media"
+RADIOSITY, MEDIA = "E0252 radiosity", "E0252 media"
 EXPECTED = [
     ("accepted.pov", "accepted", [], None),
-    ("packed.pov.gz", "refused", [POLYNOMIAL, MEDIA], "packed.pov:3"),
-    ("refused.pov", "refused", [POLYNOMIAL], "refused.pov:3"),
+    ("packed.pov.gz", "refused", [RADIOSITY, MEDIA], "packed.pov:3"),
+    ("refused.pov", "refused", [RADIOSITY], "refused.pov:3"),
 ]
-PLAN = [["polynomials", 1, 2], ["media", 1, 1]]
+PLAN = [["radiosity", 1, 2], ["media", 1, 1]]
 
 
 def write_scenes(folder):
