@@ -128,9 +128,12 @@ def check_warnings(tap):
 
 
 def lacks_files(path):
-    """Whether a scene names a file of POV-Ray's that is not on this machine."""
+    """Whether a scene wants a font or an include file of POV-Ray's that is not on this machine."""
     with open(path, encoding="utf-8") as scene:
-        is_named = re.search(r"functions\.inc|\.ttf", scene.read())
+        text = scene.read()
+    ours = (os.path.dirname(path), f"{os.environ['top_srcdir']}/share/rtlang")
+    is_named = ".ttf" in text or any(not any(os.path.exists(f"{folder}/{name}") for folder in ours)
+                                     for name in re.findall(r'#include "([^"]*)"', text))
     return is_named and not glob.glob("/usr/share/povray*/include/functions.inc")
 
 

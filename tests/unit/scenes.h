@@ -9,24 +9,35 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "unit/tap.h"
 
 // `folder` is where a scene's includes are; `number` counts from 0.
 typedef void (*SceneTest)(void *client, const char *folder, const char *path, size_t number);
 
-// Whether a scene names a file of POV-Ray's that is not on this machine.
-static bool scene_lacks_files(const char *path)
+// Whether a file of that name, as it stands in quotes, is in `folder`.
+static bool scene_file_is_in(const char *folder, const char *quoted)
 {
-    static const char *const named[] = {"functions.inc", ".ttf"};
-    char line[4096];
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%.*s", folder, (int)strcspn(quoted, "\""), quoted);
+    return access(path, R_OK) == 0;
+}
+
+// Whether a scene wants a file of POV-Ray's that is not on this machine: a font, or an include file that is neither beside
+// the scene nor in `folder`.
+static bool scene_lacks_files(const char *path, const char *folder)
+{
+    static const char include[] = "#include \"";
+    char line[4096], beside[4096];
     FILE *text = fopen(path, "r");
     glob_t found;
     bool is_named = false;
+    snprintf(beside, sizeof beside, "%.*s", (int)(strrchr(path, '/') - path), path);
     while (text && !is_named && fgets(line, sizeof line, text)) {
-        for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
-            is_named = is_named || strstr(line, named[i]);
-        }
+        const char *at = strstr(line, include);
+        const char *name = at ? at + sizeof include - 1 : NULL;
+        is_named = strstr(line, ".ttf") || (name && !scene_file_is_in(beside, name) && !scene_file_is_in(folder, name));
     }
     if (text) {
         fclose(text);
@@ -49,7 +60,7 @@ __attribute__((unused)) static size_t scenes_try(const char *pattern, SceneTest 
     snprintf(folder, sizeof folder, "%s/share/rtlang", top ? top : ".");
     if (tap_ok(glob(path, 0, NULL, &found) == 0, "there are scenes %s", pattern)) {
         for (; count < found.gl_pathc; count++) {
-            if (scene_lacks_files(found.gl_pathv[count])) {
+            if (scene_lacks_files(found.gl_pathv[count], folder)) {
                 tap_skip(found.gl_pathv[count], "POV-Ray's include files are not installed");
             } else {
                 test(client, folder, found.gl_pathv[count], count);
