@@ -8,6 +8,8 @@
 #ifndef BASE_ISA_H
 #define BASE_ISA_H
 
+#include <stdbool.h>
+
 #define ISA_TEXT_(name)       #name
 #define ISA_TEXT_OF_(name)    ISA_TEXT_(name)
 #define ISA_JOINED_(a, b)     a##b
@@ -16,6 +18,29 @@
 // Of the file that is being compiled: the set's name as text, and a name that ends with it.
 #define ISA_TEXT          ISA_TEXT_OF_(ISA_NAME)
 #define ISA_NAMED(prefix) ISA_JOINED_OF_(prefix, ISA_NAME)
+
+// Whether this processor has what the compiler was allowed to use in this file. Asked feature by feature: clang before 17
+// does not know the levels by their names. Processors with these have the rest of their level, too.
+static inline bool isa_is_supported(void)
+{
+#ifdef __SSE4_2__
+    if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) {
+        return false;
+    }
+#endif
+#ifdef __AVX2__
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("bmi2") || !__builtin_cpu_supports("fma")) {
+        return false;
+    }
+#endif
+#ifdef __AVX512VL__
+    if (!__builtin_cpu_supports("avx512bw") || !__builtin_cpu_supports("avx512cd") ||
+        !__builtin_cpu_supports("avx512dq") || !__builtin_cpu_supports("avx512vl")) {
+        return false;
+    }
+#endif
+    return true;
+}
 
 #ifdef __x86_64__
 #define ISA_LIST(Type, prefix, list)                                                                                   \

@@ -131,8 +131,8 @@ static void fill_lattice(Noise *noise)
 
 static const NoiseKernel *kernel_choose(const char *isa)
 {
-    for (size_t i = 0; isa && i < RT_COUNT_OF(kernels); i++) {
-        if (strcmp(isa, kernels[i]->name) == 0) {
+    for (size_t i = RT_COUNT_OF(kernels); i-- > 0;) {
+        if (isa ? strcmp(isa, kernels[i]->name) == 0 : kernels[i]->is_supported()) {
             return kernels[i];
         }
     }

@@ -36,7 +36,7 @@ typedef struct Noise {
     double sites[NOISE_SITES];       // from 0 to 1, see noise_site
 } Noise;
 
-// `isa`: the name of the instruction set to use, which this processor must have; NULL for the plain one.
+// `isa`: the name of the instruction set to use, which this processor must have; NULL for its best one.
 void noise_init(Noise *noise, const char *isa);
 
 // The nearest generator to a number of the language; 0 stands for none.

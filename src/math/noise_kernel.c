@@ -475,5 +475,6 @@ static Vec3 vector_sum_at(const Noise *noise, const Octaves *octaves, Vec3 p)
 }
 
 extern const NoiseKernel ISA_NAMED(noise_kernel_);
-const NoiseKernel ISA_NAMED(noise_kernel_) = {ISA_TEXT,  value_at,   spread_at, vector_at,
-                                              values_at, vectors_at, sum_at,    vector_sum_at};
+const NoiseKernel ISA_NAMED(noise_kernel_) = {
+    ISA_TEXT, isa_is_supported, value_at, spread_at, vector_at, values_at, vectors_at, sum_at, vector_sum_at,
+};

@@ -9,6 +9,7 @@
 // What the functions of math/noise.h do that are named so; all give the same bits.
 struct NoiseKernel {
     const char *name; // of the instruction set
+    bool (*is_supported)(void);
     double (*value)(const Noise *noise, NoiseGenerator generator, Vec3 p);
     double (*spread)(const Noise *noise, NoiseGenerator generator, Vec3 p);
     Vec3 (*vector)(const Noise *noise, Vec3 p);

@@ -190,33 +190,10 @@ static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, uin
     return false;
 }
 
-// Whether this processor has what the compiler was allowed to use in this file. Asked feature by feature: clang before 17
-// does not know the levels by their names. Processors with these have the rest of their level, too.
-static bool is_supported(void)
-{
-#ifdef __SSE4_2__
-    if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) {
-        return false;
-    }
-#endif
-#ifdef __AVX2__
-    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("bmi2") || !__builtin_cpu_supports("fma")) {
-        return false;
-    }
-#endif
-#ifdef __AVX512VL__
-    if (!__builtin_cpu_supports("avx512bw") || !__builtin_cpu_supports("avx512cd") ||
-        !__builtin_cpu_supports("avx512dq") || !__builtin_cpu_supports("avx512vl")) {
-        return false;
-    }
-#endif
-    return true;
-}
-
 extern const SphereKernels ISA_NAMED(sphere_kernels_);
 const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .name = ISA_TEXT,
-    .is_supported = is_supported,
+    .is_supported = isa_is_supported,
     .closest = spheres_closest,
     .occluded = spheres_occluded,
     .closest_tile = tile_closest,

@@ -35,4 +35,4 @@ static void shares(const EscapePoints *points, int steps, double *shares)
 }
 
 extern const EscapeKernel ISA_NAMED(escape_kernel_);
-const EscapeKernel ISA_NAMED(escape_kernel_) = {ISA_TEXT, shares};
+const EscapeKernel ISA_NAMED(escape_kernel_) = {ISA_TEXT, isa_is_supported, shares};

@@ -4,6 +4,7 @@
 #ifndef RENDER_SURFACE_ESCAPE_KERNEL_H
 #define RENDER_SURFACE_ESCAPE_KERNEL_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 enum { ESCAPE_ABREAST = 8 }; // points that are taken in one step, or parts of it
@@ -15,11 +16,12 @@ typedef struct EscapePoints {
 
 typedef struct EscapeKernel {
     const char *name; // of the instruction set
+    bool (*is_supported)(void);
     // The share of the steps after which each is farther than 2 from 0, or 1.
     void (*shares)(const EscapePoints *points, int steps, double shares[ESCAPE_ABREAST]);
 } EscapeKernel;
 
-// That of an instruction set by name, the plain one for NULL.
+// That of an instruction set by name, the processor's best one for NULL.
 const EscapeKernel *escape_kernel_choose(const char *isa);
 
 #endif

@@ -262,8 +262,8 @@ ISA_LIST(EscapeKernel, escape_kernel_, escape_kernels);
 
 const EscapeKernel *escape_kernel_choose(const char *isa)
 {
-    for (size_t i = 0; isa && i < RT_COUNT_OF(escape_kernels); i++) {
-        if (strcmp(isa, escape_kernels[i]->name) == 0) {
+    for (size_t i = RT_COUNT_OF(escape_kernels); i-- > 0;) {
+        if (isa ? strcmp(isa, escape_kernels[i]->name) == 0 : escape_kernels[i]->is_supported()) {
             return escape_kernels[i];
         }
     }
