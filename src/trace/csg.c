@@ -189,11 +189,38 @@ static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
     return t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
 }
 
-RT_ALWAYS_INLINE void traversal_ask(CsgTraversal *p, uint32_t index, RayStart start, bool has_meshes)
+// Whether the ray starts on one of the primitives.
+RT_ALWAYS_INLINE bool traversal_is_own(const CsgTraversal *p, RayStart start)
+{
+    return starts_on_primitive(start) &&
+           table_primitive_index(p->table, start.shape) - p->csg->first_primitive < p->csg->primitive_count;
+}
+
+// What bounds all that is seen is asked before all else, and then no more. False: the ray never comes inside of it.
+// Bounds are among the primitives that are not seen.
+static __attribute__((noinline)) bool traversal_meets_bounds(CsgTraversal *p, RayStart start)
 {
     const CsgTree *csg = p->csg;
-    bool is_own = starts_on_primitive(start) &&
-                  table_primitive_index(p->table, start.shape) - csg->first_primitive < csg->primitive_count;
+    for (uint32_t i = csg->seen_count; i < csg->primitive_count; i++) {
+        if (!traversal_primitive(p, i)->bounds) {
+            continue;
+        }
+        traversal_primitive_begin(p, i, start, traversal_is_own(p, start));
+        if (!p->is_inside[i] && p->count == 0) {
+            return false;
+        }
+        p->is_inside[i] = true;
+        p->count = 0;
+    }
+    return true;
+}
+
+RT_ALWAYS_INLINE void traversal_ask(CsgTraversal *p, uint32_t index, RayStart start, bool has_meshes)
+{
+    if (RT_UNLIKELY(traversal_primitive(p, index)->bounds) && !p->csg->has_bounds) {
+        return; // the ray has met it
+    }
+    bool is_own = traversal_is_own(p, start);
     p->is_inside[index] = false;
     if (has_meshes && primitive_is_mesh(traversal_primitive(p, index))) {
         traversal_mesh_begin(p, index);
@@ -466,6 +493,9 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
                       .decided_until = (double)INFINITY};
     uint64_t met[csg->parts ? csg_words(csg) : 1];
     p.met = met;
+    if (csg->seen_count < csg->primitive_count && !csg->has_bounds && !traversal_meets_bounds(&p, start)) {
+        return;
+    }
     if (csg->parts) {
         traversal_begin_loose(&p, start, first->limit);
     } else {

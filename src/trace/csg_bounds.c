@@ -380,3 +380,42 @@ Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces
     bool may_be_less = csg->primitive_count > 1 && !bounds_are_finite(surface);
     return may_be_less ? csg_bounds(table, csg, surfaces, bounds, inner, next) : bounds;
 }
+
+// ---- the nodes themselves
+
+// The node stays, without children, and no ray is inside of it.
+static void node_join(TreeNode *node, TreeNode *parent)
+{
+    parent->child_count += node->child_count - 1;
+    parent->needed += node_is_all(node) ? node->child_count - 1 : 0;
+    node->child_count = 0;
+    node->needed = UINT32_MAX;
+}
+
+void csg_nodes_init(ShapeTable *table, const Scene *scene)
+{
+    for (uint32_t i = 0; i < table->node_count; i++) {
+        const Node *node = &scene->nodes.items[i];
+        bool is_any = node->op == NODE_UNION || node->op == NODE_MERGE;
+        table->nodes[i] =
+            (TreeNode){node->op, node->is_inverse, node->parent, node->child_count, is_any ? 1 : node->child_count, 0};
+        if (node->op == NODE_BOUND) { // children stand behind their parents
+            table->nodes[node->parent].child_count--;
+            table->nodes[node->parent].needed--;
+        }
+    }
+    for (uint32_t i = 0; i < table->node_count; i++) {
+        TreeNode *node = &table->nodes[i];
+        if (node->parent == NODE_NONE) {
+            continue;
+        }
+        TreeNode *parent = &table->nodes[node->parent];
+        node->parent = node_is_joined(parent) ? parent->parent : node->parent;
+        parent = &table->nodes[node->parent];
+        bool is_same = node->op == parent->op || (node_is_all(node) && node_is_all(parent));
+        bool has_bounds = node->child_count != scene->nodes.items[i].child_count;
+        if (is_same && node->op != NODE_BOUND && !node->is_inverse && !has_bounds) {
+            node_join(node, parent);
+        }
+    }
+}

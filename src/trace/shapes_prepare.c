@@ -99,9 +99,31 @@ static Bounds part_bounds(const Primitive *primitive, int exponent, double down)
 
 // ---- composites
 
-static bool node_is_all(const TreeNode *node)
+// Whether a primitive bounds all that is seen of a composite, and a ray meets it where it is inside of it: rays ask
+// such ones before all others.
+static bool bounds_all(const ShapeTable *table, const CsgTree *csg, const PreparedPrimitive *primitive)
 {
-    return node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
+    const TreeNode *bound = &table->nodes[primitive->node];
+    return bound->op == NODE_BOUND && bound->parent == csg->first_node && bound->child_count == 1 &&
+           !bound->is_inverse && primitive_is_convex(primitive) && !primitive_is_flat(primitive) &&
+           (primitive->flags & PRIMITIVE_UNSEEN) && !(primitive->flags & PRIMITIVE_INVERSE);
+}
+
+// What follows from the nodes around a primitive.
+static void csg_place_primitive(ShapeTable *table, PreparedPrimitive *primitive)
+{
+    if (node_is_joined(&table->nodes[primitive->node])) {
+        primitive->node = table->nodes[primitive->node].parent;
+    }
+    primitive->is_needed =
+        !(primitive->flags & PRIMITIVE_INVERSE) && !(primitive->traits & TRAIT_SHEET) && !primitive_is_mesh(primitive);
+    for (uint32_t at = primitive->node; at != NODE_NONE; at = table->nodes[at].parent) {
+        const TreeNode *node = &table->nodes[at];
+        primitive->flips = primitive->flips != node->is_inverse;
+        primitive->is_needed = primitive->is_needed && node_is_all(node) && !node->is_inverse;
+        primitive->bounds = primitive->bounds || node->op == NODE_BOUND;
+    }
+    primitive->decides = primitive->is_needed && primitive_is_convex(primitive);
 }
 
 static void csg_init(ShapeTable *table, const Composite *composite, uint32_t index)
@@ -115,12 +137,12 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
                      .interval_most = 1,
                      .is_convex = true,
                      .order = composite->order};
-    csg->is_meet = csg->node_count == 1 && node_is_all(&table->nodes[csg->first_node]) &&
-                   !table->nodes[csg->first_node].is_inverse;
-    csg->is_plain = csg->is_meet && csg->primitive_count <= CSG_PLAIN_MOST;
+    const TreeNode *root = &table->nodes[csg->first_node];
+    uint32_t children = 0, bounds = 0; // primitives at the root; nodes that bound, less those that are asked first
     for (uint32_t i = csg->first_node; i < csg->first_node + csg->node_count; i++) {
-        csg->has_bounds = csg->has_bounds || table->nodes[i].op == NODE_BOUND;
+        bounds += table->nodes[i].op == NODE_BOUND;
     }
+    csg->is_meet = csg->is_plain = node_is_all(root) && !root->is_inverse;
     for (uint32_t i = composite->first_primitive; i < composite->first_primitive + composite->primitive_count; i++) {
         PreparedPrimitive *primitive = &table->primitives[i];
         csg->seen_count = primitive->flags & PRIMITIVE_UNSEEN ? csg->seen_count : i + 1 - composite->first_primitive;
@@ -135,31 +157,15 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         if (primitive_is_mesh(primitive)) {
             primitive->mesh.cursor = csg->mesh_count++;
         }
-        primitive->is_needed = !(primitive->flags & PRIMITIVE_INVERSE) && !(primitive->traits & TRAIT_SHEET) &&
-                               !primitive_is_mesh(primitive);
-        for (uint32_t at = primitive->node; at != NODE_NONE; at = table->nodes[at].parent) {
-            const TreeNode *node = &table->nodes[at];
-            primitive->flips = primitive->flips != node->is_inverse;
-            primitive->is_needed = primitive->is_needed && node_is_all(node) && !node->is_inverse;
-            primitive->bounds = primitive->bounds || node->op == NODE_BOUND;
-        }
-        primitive->decides = primitive->is_needed && primitive_is_convex(primitive);
-        csg->is_meet = csg->is_meet && primitive->decides;
+        csg_place_primitive(table, primitive);
+        bounds -= bounds_all(table, csg, primitive);
+        children += primitive->node == csg->first_node;
+        csg->is_meet = csg->is_meet && (primitive->decides || primitive->bounds);
     }
-}
-
-static void nodes_init(ShapeTable *table, const Scene *scene)
-{
-    for (uint32_t i = 0; i < table->node_count; i++) {
-        const Node *node = &scene->nodes.items[i];
-        bool is_any = node->op == NODE_UNION || node->op == NODE_MERGE;
-        table->nodes[i] =
-            (TreeNode){node->op, node->is_inverse, node->parent, node->child_count, is_any ? 1 : node->child_count, 0};
-        if (node->op == NODE_BOUND) { // children stand behind their parents
-            table->nodes[node->parent].child_count--;
-            table->nodes[node->parent].needed--;
-        }
-    }
+    csg->has_bounds = bounds > 0;
+    csg->is_meet = csg->is_meet && !csg->has_bounds && children == root->child_count;
+    csg->is_plain =
+        csg->is_plain && !csg->has_bounds && children == root->child_count && csg->primitive_count <= CSG_PLAIN_MOST;
 }
 
 // ---- meshes
@@ -517,7 +523,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
             work.solids[i] = part_bounds(&scene->primitives.items[i], exponent, down);
         }
         done = meshes_init(table, scene, threads, cancel);
-        nodes_init(table, scene);
+        csg_nodes_init(table, scene);
         for (uint32_t i = 0; i < table->csg_count; i++) {
             csg_init(table, &scene->composites.items[i], i);
         }
