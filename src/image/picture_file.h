@@ -60,7 +60,7 @@ ImageStatus picture_file_read_real(const char *real, const char *format, const P
 // Whether files of a format are read without a module.
 bool picture_file_is_own(const char *format);
 
-// What of that is told by the file's first bytes: IMAGE_OK when it can be opened and may be of the format.
+// What of that the file's first bytes say: IMAGE_OK when it can be opened and may be of the format.
 ImageStatus picture_file_begins(const char *real, const char *format, ImageError *error) RT_MUST_CHECK;
 
 #endif

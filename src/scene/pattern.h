@@ -76,7 +76,7 @@ typedef struct Pattern {
                        // density_file: 0 for its values as they are, 1 for linear, 2 for cubic between them
     uint32_t flags;    // PATTERN_SOLID and the like
     int32_t magnet, power;      // mandel, julia: which of the magnets, 0 for none; else the power of z in each step
-    int32_t exterior, interior; // what is told of points that leave, and of those that stay
+    int32_t exterior, interior; // what is returned for points that leave, and for those that stay
     double exterior_factor, interior_factor;
     Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar; julia: its number;
                    // quilted: its two control values; slope: the direction that it faces
