@@ -30,8 +30,8 @@ syn keyword rtlangWord assumed_gamma average background bicubic_patch black_hole
 syn keyword rtlangWord box boxed bozo brick brick_size brilliance bump_map bump_size bumps camera caustics
 syn keyword rtlangWord cells charset checker circular clipped_by color_map colour_map component cone
 syn keyword rtlangWord confidence conserve_energy contained_by control0 control1 crackle crand cube cubic
-syn keyword rtlangWord cubic_wave cylinder cylindrical dents difference diffuse direction disc dist_exp
-syn keyword rtlangWord distance double_illuminate emission evaluate exponent exr exterior fade_color
+syn keyword rtlangWord cubic_wave cylinder cylindrical density_file dents difference diffuse direction disc
+syn keyword rtlangWord dist_exp distance double_illuminate emission evaluate exponent exr exterior fade_color
 syn keyword rtlangWord fade_colour fade_distance fade_power falloff falloff_angle finish fisheye flip
 syn keyword rtlangWord focal_point fog fog_alt fog_offset fog_type form frequency fresnel gamma global_lights
 syn keyword rtlangWord global_settings gradient granite hdr height_field hexagon hf_gray_16 hierarchy hollow

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "image/picture_file.h"
 #include "render/records/kernel.h"
 #include "scene/recentre.h"
 
@@ -204,7 +205,7 @@ static bool write_feature(rt_session *session, int threads, const Feature *featu
 static bool needs_module(const Scene *scene)
 {
     for (size_t i = 0; i < scene->picture_sources.count; i++) {
-        if (scene->picture_sources.items[i].format != PICTURE_PNG) {
+        if (!picture_file_is_own(picture_format_word((PictureFormat)scene->picture_sources.items[i].format))) {
             return true;
         }
     }
@@ -237,7 +238,7 @@ static bool write_present(rt_session *session, int threads, const Run *whole)
     }
     if (scene->picture_sources.count > 0) {
         text_printf(out, "  %-22s%12llu files%s\n", "pictures", (unsigned long long)scene->picture_sources.count,
-                    needs_module(scene) ? ", read by OpenImageIO unless PNG" : "");
+                    needs_module(scene) ? ", not all of which rtlang reads itself" : "");
     }
     return true;
 }

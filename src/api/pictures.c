@@ -157,6 +157,7 @@ static bool picture_take(Picture *picture, const PictureSource *source, PictureF
     Way way = way_choose(source, file);
     picture->width = file->width;
     picture->height = file->height;
+    picture->layers = file->layers;
     picture->channels = file->channels;
     picture->depth = depths[file->depth];
     picture->places = (uint32_t)file->palette_count;
@@ -168,7 +169,9 @@ static bool picture_take(Picture *picture, const PictureSource *source, PictureF
         return make_palette(picture, file, &way);
     }
     if (picture->depth == PICTURE_DEPTH_FLOAT) {
-        (source->format == PICTURE_HDR ? centre_steps : round_to_half)(picture);
+        if (source->format != PICTURE_DF3) {
+            (source->format == PICTURE_HDR ? centre_steps : round_to_half)(picture);
+        }
         convert_floats(picture, &way);
         return true;
     }
@@ -246,7 +249,7 @@ static bool picture_load(rt_session *session, Scene *scene, size_t index)
         return false;
     }
     const char *format = picture_format_word((PictureFormat)source->format);
-    ImageStatus status = session->has_readers && source->format != PICTURE_PNG
+    ImageStatus status = session->has_readers && !picture_file_is_own(format)
                              ? picture_reader_read(&session->reader, source->real, format, &limit, &file, &error)
                              : picture_file_read_real(source->real, format, &limit, &file, &error);
     if (status != IMAGE_OK && atomic_load(&session->cancel)) {

@@ -10,7 +10,7 @@
 #include "image/picture_file.h"
 
 // Raised with each change of the structures below; a module of another version is passed over.
-#define JPEG_MODULE_VERSION 1u
+#define JPEG_MODULE_VERSION 2u
 #define JPEG_MODULE_FILE "rtlang_jpeg.so"
 #define JPEG_MODULE_SYMBOL "rtlang_jpeg_module"
 

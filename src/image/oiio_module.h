@@ -13,7 +13,7 @@
 #include "image/picture_file.h"
 
 // Raised with each change of the structures below; a module of another version is passed over.
-#define OIIO_MODULE_VERSION 4u
+#define OIIO_MODULE_VERSION 5u
 #define OIIO_MODULE_FILE "rtlang_oiio.so"
 #define OIIO_MODULE_SYMBOL "rtlang_oiio_module"
 

@@ -1,4 +1,5 @@
-// From a path to the reader that knows the file's format, by its first bytes: PNG, JPEG, or the module for everything else.
+// From a path to the reader that knows the file's format, by its first bytes: PNG, JPEG, df3, or
+// the module for everything else.
 //
 // It owns the samples until they are handed over; it must not know what any format looks like.
 //
@@ -13,6 +14,7 @@
 #include <unistd.h>
 
 #include "base/real_path.h"
+#include "image/df3_read.h"
 #include "image/encode.h"
 #include "image/image_error.h"
 #include "image/module.h"
@@ -85,6 +87,7 @@ static const struct {
     {"tiff", {"II*\0", "MM\0*"}, 4, NULL, "tiff"},
     {"exr", {"\x76\x2f\x31\x01"}, 4, NULL, "openexr"},
     {"hdr", {"#?"}, 2, NULL, "hdr"},
+    {"df3", {NULL}, 0, df3_read, NULL},
 };
 
 enum { BEGINNING_MOST = 8 };
@@ -98,6 +101,13 @@ static size_t format_place(const char *format)
         place++;
     }
     return place;
+}
+
+bool picture_file_is_own(const char *format)
+{
+    size_t place = format_place(format);
+
+    return place < RT_COUNT_OF(formats) && formats[place].read && formats[place].read != read_jpeg;
 }
 
 // Whether the stream begins as files of that format do; false for a format that does not tell. The stream stands at its

@@ -24,6 +24,7 @@ enum { PICTURE_PALETTE_MAX = 256 };
 
 typedef struct PictureFile {
     int width, height;
+    int layers;   // of a df3 file, which lie one below the other, all of one height; else 0
     int channels; // 1 to 4: grey, grey+alpha, rgb, rgb+alpha; 1 with a palette
     ImageDepth depth;
     int bits;          // of a sample in the file; less than 8 are widened to 8, but not those of a palette
@@ -46,7 +47,7 @@ typedef struct PictureLimit {
 ImageStatus picture_file_allocate(PictureFile *file, const PictureLimit *limit) RT_MUST_CHECK;
 void picture_file_fini(PictureFile *file); // releases the samples
 
-// Reads a file that must be of the format: one of `png jpeg tga ppm pgm tiff exr hdr`, or NULL for any that can be
+// Reads a file that must be of the format: one of `png jpeg tga ppm pgm tiff exr hdr df3`, or NULL for any that can be
 // read. IMAGE_NOT_A_PICTURE when it is of another one. On failure nothing is left to release; width and height then say
 // what the file claims, or 0.
 ImageStatus picture_file_read(const char *path, const char *format, const PictureLimit *limit, PictureFile *file,
@@ -55,6 +56,9 @@ ImageStatus picture_file_read(const char *path, const char *format, const Pictur
 // The same for a path in which nothing is a link, as realpath gives it; a link that is there by now is an error.
 ImageStatus picture_file_read_real(const char *real, const char *format, const PictureLimit *limit, PictureFile *file,
                                    ImageError *error) RT_MUST_CHECK;
+
+// Whether files of a format are read without a module.
+bool picture_file_is_own(const char *format);
 
 // What of that the file's first bytes say: IMAGE_OK when it can be opened and may be of the format.
 ImageStatus picture_file_begins(const char *real, const char *format, ImageError *error) RT_MUST_CHECK;

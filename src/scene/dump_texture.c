@@ -135,6 +135,14 @@ static void dump_picture(const Scene *scene, const Pattern *pattern, TextBuffer 
     }
 }
 
+static void dump_density(const Scene *scene, const Pattern *pattern, TextBuffer *out)
+{
+    const ImageMap *map = &scene->image_maps.items[pattern->image];
+    text_append(out, "  density_file df3 ");
+    dump_string(out, scene->picture_sources.items[map->picture].path);
+    text_printf(out, " interpolate %d", (int)pattern->count);
+}
+
 static void dump_surface_word(const Pattern *pattern, TextBuffer *out)
 {
     text_append(out, pattern->flags & PATTERN_ON_SURFACE ? "  uv_mapping\n" : "");
@@ -164,6 +172,10 @@ static void dump_pattern_word(const Scene *scene, const Pattern *pattern, TextBu
     dump_surface_word(pattern, out);
     if (pattern->type == PATTERN_FUNCTION) {
         dump_formula(scene, pattern, out);
+        return;
+    }
+    if (pattern->type == PATTERN_DENSITY_FILE) {
+        dump_density(scene, pattern, out);
         return;
     }
     if (pattern_is_picture(pattern->type)) {

@@ -41,6 +41,7 @@ static const PatternInfo patterns[PATTERN_COUNT] = {
     [PATTERN_IMAGE_PATTERN] = {.word = "image_pattern"},
     [PATTERN_BUMP_MAP] = {.word = "bump_map", .is_special_normal = true},
     [PATTERN_MATERIAL_MAP] = {.word = "material_map", .form = PATTERN_OF_BLOCKS},
+    [PATTERN_DENSITY_FILE] = {.word = "density_file"},
     [PATTERN_MANDEL] = {.word = "mandel", .has_count = true},
     [PATTERN_JULIA] = {.word = "julia", .has_direction = true, .has_count = true},
     [PATTERN_QUILTED] = {.word = "quilted", .is_special_normal = true},

@@ -51,6 +51,7 @@ typedef enum PatternType {
     PATTERN_IMAGE_PATTERN, // what a picture tells as values
     PATTERN_BUMP_MAP,      // as heights, of normals only
     PATTERN_MATERIAL_MAP,  // as numbers of textures, of textures only
+    PATTERN_DENSITY_FILE,  // values that fill a cube
     PATTERN_OBJECT,        // whether a point is inside of an object
     PATTERN_AVERAGE,       // no pattern: all that lies along it, mixed
     PATTERN_COUNT
@@ -71,7 +72,8 @@ typedef struct Pattern {
     uint32_t wave; // WaveType
     int32_t generator; // NoiseGenerator, 0: the scene's
     int32_t octaves;   // of turbulence, at least 1
-    int32_t count;     // material_map: its textures; spiral1: its arms; mandel, julia: steps, at least 1
+    int32_t count;     // material_map: its textures; spiral1: its arms; mandel, julia: steps, at least 1;
+                       // density_file: 0 for its values as they are, 1 for linear, 2 for cubic between them
     uint32_t flags;    // PATTERN_SOLID and the like
     int32_t magnet, power;      // mandel, julia: which of the magnets, 0 for none; else the power of z in each step
     int32_t exterior, interior; // what is returned for points that leave, and for those that stay
@@ -120,7 +122,7 @@ const PatternInfo *pattern_info(PatternType type);
 static inline bool pattern_is_picture(uint32_t type)
 {
     return type == PATTERN_IMAGE_MAP ||
-           (type >= PATTERN_IMAGE_PATTERN && type <= PATTERN_MATERIAL_MAP);
+           (type >= PATTERN_IMAGE_PATTERN && type <= PATTERN_DENSITY_FILE);
 }
 // "ramp_wave" and the like.
 const char *pattern_wave_word(WaveType wave);

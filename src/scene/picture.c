@@ -12,6 +12,7 @@
 static const char *const words[] = {
     [PICTURE_PNG] = "png", [PICTURE_JPEG] = "jpeg", [PICTURE_TGA] = "tga", [PICTURE_PPM] = "ppm",
     [PICTURE_PGM] = "pgm", [PICTURE_TIFF] = "tiff", [PICTURE_EXR] = "exr", [PICTURE_HDR] = "hdr",
+    [PICTURE_DF3] = "df3",
 };
 
 static const size_t sample_bytes[] = {[PICTURE_DEPTH_8] = 1, [PICTURE_DEPTH_16] = 2, [PICTURE_DEPTH_FLOAT] = 4};

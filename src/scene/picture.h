@@ -23,6 +23,7 @@ typedef enum PictureFormat {
     PICTURE_TIFF,
     PICTURE_EXR,
     PICTURE_HDR,
+    PICTURE_DF3, // no picture: values that fill a cube
     PICTURE_FORMATS
 } PictureFormat;
 
@@ -57,10 +58,11 @@ typedef enum PictureDepth { PICTURE_DEPTH_8, PICTURE_DEPTH_16, PICTURE_DEPTH_FLO
 
 enum { PICTURE_PALETTE = 256 };
 
-// Row 0 is the top one. A place in a palette, or 1 to 4 channels: grey, grey and alpha, rgb, rgb and alpha.
+// Row 0 is the top one; of a cube y is 0 in row 0 of each layer. A place in a palette, or 1 to 4 channels: grey, grey and alpha, rgb, rgb and alpha.
 typedef struct Picture {
     Span span; // where the file is named first
     int width, height, channels;
+    int layers; // of a cube, which lie one below the other: a part of the height each; else 0
     PictureDepth depth;
     void *samples;          // NULL: not loaded; owned
     float *decoded;         // the colour, in the working space, of each code of 8 or 16 bits; owned, NULL for float

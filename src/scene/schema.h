@@ -165,6 +165,7 @@ typedef enum SchemaAction {
     ACTION_NOISE_GENERATOR,
     ACTION_SURFACE,
     ACTION_PICTURE,      // `image_pattern` and the like
+    ACTION_DENSITY,      // `density_file`
     ACTION_MAP_MATERIAL, // a texture of a material_map
     ACTION_COUNT
 } SchemaAction;

@@ -37,7 +37,7 @@ LEFT_OUT = {
     "pattern": "a value; tests/lang/functions.test asks POV-Ray",
     "colour_map fade_colour": "other spellings",
     "jitter aperture blur_samples confidence focal_point variance": "random in both",
-    "image_pattern bump_map material_map use_alpha use_index image_map exr hdr jpeg map_type once interpolate pgm png ppm premultiplied tga tiff use_color use_colour": "need a file;"
+    "image_pattern bump_map material_map density_file use_alpha use_index image_map exr hdr jpeg map_type once interpolate pgm png ppm premultiplied tga tiff use_color use_colour": "need a file;"
     " tests/povray/image_*.scn have them",
     "bumps spotted dents ripples waves wrinkles noise_generator number_of_waves turb_depth": "tests/povray/*.scn have"
     " them",

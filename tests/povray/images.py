@@ -112,9 +112,18 @@ def write_png(folder):
     earth(f"{folder}/earth.png")
 
 
+def write_df3(folder):
+    """Cubes of values of 8, 16 and 32 bits, of sizes that differ."""
+    for bits in 8, 16, 32:
+        values = [value << bits - 16 if bits > 16 else value >> 16 - bits for value in samples((7, 11 * 6), 1)]
+        with open(f"{folder}/cube{bits}.df3", "wb") as file:
+            file.write(struct.pack(">3H", 7, 11, 6) + struct.pack(f">{len(values)}{' BH I'[bits // 8]}", *values))
+
+
 def make(folder, rtlang):
     """Fills the folder. What rtlang cannot write without OpenImageIO is left out."""
     write_png(folder)
+    write_df3(folder)
     write_others(folder)
     for name, options in BY_RTLANG:
         subprocess.run([rtlang, "-", "-o", os.path.join(folder, name), "-W", "32", "-H", "24", "-q", *options],

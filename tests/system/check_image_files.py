@@ -146,6 +146,31 @@ def test_jpeg():
     tap.ok("calling init" in said and "rtlang_oiio" not in said, "JPEG is read without OpenImageIO", said[-2000:])
 
 
+def test_cubes():
+    """Cubes of values: what their length says must be what their sizes say."""
+    cube = read("cube8.df3")
+    pigment = 'sphere { 0, 1 pigment { density_file df3 "%s" } }'
+    write("head.df3", cube[:5])
+    write("short.df3", cube[:-1])
+    write("long.df3", cube + cube[6:] + cube[6:])
+    write("none.df3", b"\0\0" + cube[2:])
+    write("deep.df3", b"\xff" * 6 + cube[6:])
+    with open("sparse.df3", "wb") as out:
+        out.write(struct.pack(">3H", 1000, 1000, 1000))
+        out.truncate(6 + 10**9)
+    for name, code, words in [
+            ("head.df3", 3, ["E0511", "`head.df3` cannot be read as a df3 file: the file ends too soon"]),
+            ("short.df3", 3, ["E0511", "it has 467 bytes, and not 6 and then 1, 2 or 4 for each of 7 x 11 x 6 values"]),
+            ("long.df3", 3, ["E0511", "for each of 7 x 11 x 6 values"]),
+            ("none.df3", 3, ["E0511", "for each of 0 x 11 x 6 values"]),
+            ("deep.df3", 3, ["E0511", "for each of 65535 x 65535 x 65535 values"]),
+            ("noise.png", 3, ["E0511", "as files of type df3 do"]),
+            ("nowhere.df3", 3, ["E0501", "`nowhere.df3` not found"]),
+            ("sparse.df3", 4, ["E0608", "--max-memory"])]:
+        expect("a cube of values, " + name, pigment % name, code, words, "--max-memory=300M")
+    expect("cubes are no pictures", pigment % "cube8.df3", 3, ["E0513"], "--untrusted")
+
+
 def test_huge():
     write("huge.png", head_of_png(100000, 100000))
     write("wide.png", head_of_png(100000000, 2)) # rows, of which libpng keeps two
@@ -226,6 +251,7 @@ def main():
         images.make(folder, RTLANG)
         test_faults()
         test_cut_others()
+        test_cubes()
         test_jpeg()
         test_huge()
         test_paid_for()

@@ -70,6 +70,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_AREA_LIGHT] = light_area_action,
     [ACTION_SURFACE] = surface_action,
     [ACTION_PICTURE] = pattern_picture_action,
+    [ACTION_DENSITY] = density_action,
     [ACTION_MAP_MATERIAL] = material_texture_action,
     [ACTION_SHADOWLESS] = light_shadowless_action,
     [ACTION_LOOKS_LIKE] = light_look_action,

@@ -340,6 +340,7 @@ bool rainbows_finish(Eval *ev) RT_MUST_CHECK;
 // What the braces of image_pattern, bump_map or material_map say; NULL: a fault is reported.
 const ImageDesc *image_read_numbers(Block *block, const AstNode *item, PatternType type) RT_MUST_CHECK;
 bool image_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool density_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_body(Block *block) RT_MUST_CHECK; // of image_map
 bool image_close(Block *block) RT_MUST_CHECK;

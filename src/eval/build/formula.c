@@ -12,9 +12,10 @@
 // A function that has been made already.
 typedef struct Made {
     const Function *function;
-    uint32_t first; // of its steps
-    unsigned steps; // in all, those of calls counted in; at most FORMULA_STEPS_MOST + 1
-    unsigned room;  // on the stack, not counting its arguments
+    unsigned component; // that it gives, of a spline or transform
+    uint32_t first;     // of its steps
+    unsigned steps;     // in all, those of calls counted in; at most FORMULA_STEPS_MOST + 1
+    unsigned room;      // on the stack, not counting its arguments
 } Made;
 
 typedef ARRAY(FormulaStep) Steps;
@@ -36,7 +37,7 @@ typedef struct Making {
     unsigned cost;
 } Making;
 
-static bool make(Maker *maker, const Function *function, Made *made);
+static bool make(Maker *maker, const Function *function, unsigned component, Made *made);
 
 static bool unsupported(Maker *maker, const char *what)
 {
@@ -179,12 +180,10 @@ static bool emit_call(Making *body, const FunctionNode *node)
     if (function->painted != NULL) {
         return emit_painted(body, node);
     }
-    if (function->kind != FUNCTION_NUMBER) {
-        return unsupported(body->maker, function->kind == FUNCTION_SPLINE      ? "spline"
-                                        : function->kind == FUNCTION_TRANSFORM ? "transform"
-                                                                               : function->word);
+    if (function->kind == FUNCTION_UNSUPPORTED) {
+        return unsupported(body->maker, function->word);
     }
-    if (!make(body->maker, function, &made)) {
+    if (!make(body->maker, function, function->kind == FUNCTION_NUMBER ? 0 : node->slot, &made)) {
         return false;
     }
     body->cost += made.steps;
@@ -260,7 +259,90 @@ static bool emit_node(Making *body, const FunctionNode *node)
     return node->slot == W_internal ? emit_given(body, node) : emit_builtin(body, node);
 }
 
+// ---- splines and transforms
+
+// A sum of powers of t - from, `sums` being what stands before them, lowest first.
+static bool emit_powers(Making *body, double from, const double sums[static 4])
+{
+    bool fine = emit(body, (FormulaStep){.op = FORMULA_NUMBER, .number = sums[3]}, 0);
+    for (unsigned power = 3; power-- > 0;) {
+        fine = fine && emit(body, (FormulaStep){.op = FORMULA_SLOT}, 0) &&
+               emit(body, (FormulaStep){.op = FORMULA_NUMBER, .number = from}, 0) &&
+               emit(body, (FormulaStep){.op = FORMULA_SUB}, 2) && emit(body, (FormulaStep){.op = FORMULA_MUL}, 2) &&
+               emit(body, (FormulaStep){.op = FORMULA_NUMBER, .number = sums[power]}, 0) &&
+               emit(body, (FormulaStep){.op = FORMULA_ADD}, 2);
+    }
+    return fine;
+}
+
+// Between two points each curve is a polynomial of the third degree at most, which four of its values determine: by
+// divided differences (I. Newton), around the first of the places.
+static bool emit_piece(Making *body, const Spline *spline, unsigned component, unsigned before)
+{
+    double start = spline->points[before].t, width = spline->points[before + 1].t - start;
+    double places[4], sums[4], v[5];
+    for (unsigned i = 0; i < 4; i++) {
+        places[i] = start + width * (2 * i + 1) / 8.0;
+        spline_at(spline, spline->type, places[i], v);
+        sums[i] = v[component];
+    }
+    for (unsigned order = 1; order < 4; order++) {
+        for (unsigned i = 3; i >= order; i--) {
+            sums[i] = (sums[i] - sums[i - 1]) / (places[i] - places[i - order]);
+        }
+    }
+    for (unsigned order = 2; order > 0; order--) { // from differences at the places to powers around the first
+        for (unsigned i = order; i < 3; i++) {
+            sums[i] += sums[i + 1] * (places[0] - places[order]);
+        }
+    }
+    return emit_powers(body, places[0], sums);
+}
+
+// What lies from one of a spline's points on up to another, and beyond the first and the last of all: halved again and
+// again.
+static bool emit_pieces(Making *body, const Spline *spline, unsigned component, unsigned first, unsigned end)
+{
+    double v[5];
+    if (first == end) {
+        bool is_first = first == 0;
+        if (!is_first && first < spline->count) {
+            return emit_piece(body, spline, component, first - 1);
+        }
+        spline_at(spline, spline->type, spline->points[is_first ? 0 : first - 1].t, v);
+        return emit(body, (FormulaStep){.op = FORMULA_NUMBER, .number = v[component]}, 0);
+    }
+    unsigned middle = first + (end - first) / 2;
+    return emit(body, (FormulaStep){.op = FORMULA_SLOT}, 0) &&
+           emit(body, (FormulaStep){.op = FORMULA_NUMBER, .number = spline->points[middle].t}, 0) &&
+           emit(body, (FormulaStep){.op = FORMULA_SUB}, 2) && emit_pieces(body, spline, component, first, middle) &&
+           emit_pieces(body, spline, component, middle + 1, end) && emit(body, (FormulaStep){.op = FORMULA_SELECT3}, 3);
+}
+
+static bool emit_transform(Making *body, const Transform *transform, unsigned component)
+{
+    bool fine = emit(body, (FormulaStep){.op = FORMULA_NUMBER, .number = transform->m[3][component]}, 0);
+    for (unsigned slot = 0; slot < 3; slot++) {
+        fine = fine && emit(body, (FormulaStep){.op = FORMULA_SLOT, .which = slot}, 0) &&
+               emit(body, (FormulaStep){.op = FORMULA_NUMBER, .number = transform->m[slot][component]}, 0) &&
+               emit(body, (FormulaStep){.op = FORMULA_MUL}, 2) && emit(body, (FormulaStep){.op = FORMULA_ADD}, 2);
+    }
+    return fine;
+}
+
 // ---- functions
+
+static bool emit_function(Making *body, const Function *function, unsigned component)
+{
+    switch (function->kind) {
+    case FUNCTION_SPLINE:
+        return emit_pieces(body, function->spline, component, 0, function->spline->count);
+    case FUNCTION_TRANSFORM:
+        return emit_transform(body, &function->transform, component);
+    default:
+        return emit_node(body, function->body);
+    }
+}
 
 static bool add_steps(Maker *maker, const Steps *steps, uint32_t *first)
 {
@@ -275,12 +357,13 @@ static bool add_steps(Maker *maker, const Steps *steps, uint32_t *first)
     return true;
 }
 
-static bool make_body(Maker *maker, const Function *function, Made *made)
+static bool make_body(Maker *maker, const Function *function, unsigned component, Made *made)
 {
     Making body = {.maker = maker};
-    bool fine = emit_node(&body, function->body) && add_steps(maker, &body.steps, &made->first);
+    bool fine = emit_function(&body, function, component) && add_steps(maker, &body.steps, &made->first);
     ARRAY_FREE(&body.steps);
     made->function = function;
+    made->component = component;
     made->steps = body.cost < FORMULA_STEPS_MOST ? body.cost : FORMULA_STEPS_MOST + 1;
     made->room = body.room;
     if (fine && made->steps > FORMULA_STEPS_MOST) {
@@ -294,15 +377,15 @@ static bool make_body(Maker *maker, const Function *function, Made *made)
     return fine;
 }
 
-static bool make(Maker *maker, const Function *function, Made *made)
+static bool make(Maker *maker, const Function *function, unsigned component, Made *made)
 {
     for (size_t i = 0; i < maker->made.count; i++) {
-        if (maker->made.items[i].function == function) {
+        if (maker->made.items[i].function == function && maker->made.items[i].component == component) {
             *made = maker->made.items[i];
             return true;
         }
     }
-    return make_body(maker, function, made) &&
+    return make_body(maker, function, component, made) &&
            (ARRAY_PUSH(&maker->made, *made) || eval_no_memory(maker->ev, maker->span));
 }
 
@@ -313,8 +396,11 @@ static bool make_outer(Maker *maker, const Function *function, Made *made)
                              {.run = function_run_slot, .next = &slots[2], .slot = 1},
                              {.run = function_run_slot, .slot = 2}};
     FunctionNode call = {.run = function_run_call, .arguments = slots, .function = function, .slot = 0};
+    if (function->kind == FUNCTION_SPLINE || function->kind == FUNCTION_TRANSFORM) { // of several numbers
+        return unsupported(maker, function->kind == FUNCTION_SPLINE ? "spline" : "transform");
+    }
     Function outer = {.kind = FUNCTION_NUMBER, .parameter_count = 3, .body = &call};
-    return function->kind == FUNCTION_NUMBER ? make(maker, function, made) : make_body(maker, &outer, made);
+    return function->kind == FUNCTION_NUMBER ? make(maker, function, 0, made) : make_body(maker, &outer, 0, made);
 }
 
 bool formula_make(Eval *ev, Scene *scene, const Function *function, FormulaBlock in, uint32_t *first,

@@ -12,6 +12,7 @@
 static const char *const endings[PICTURE_FORMATS][3] = {
     [PICTURE_PNG] = {".png"},  [PICTURE_JPEG] = {".jpg", ".jpeg"}, [PICTURE_TGA] = {".tga"}, [PICTURE_PPM] = {".ppm"},
     [PICTURE_PGM] = {".pgm"},  [PICTURE_TIFF] = {".tif", ".tiff"}, [PICTURE_EXR] = {".exr"}, [PICTURE_HDR] = {".hdr"},
+    [PICTURE_DF3] = {".df3"},
 };
 
 // What is no colour is as the file has it, whatever its type, unless it is said how it is encoded.
@@ -68,6 +69,27 @@ bool image_map_action(Block *block, const SchemaProperty *property, const AstNod
     return part->image || eval_no_memory(block->ev, item->span);
 }
 
+// `df3`, the name of a file and, in a normal, an amount.
+bool density_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    PatternPart *part = &block->record->patterned;
+    ImageDesc image = {.shades = NULL};
+    if (!pattern_may_begin(block, property, item)) {
+        return false;
+    }
+    if (!cursor_at_word(&block->cursor, W_df3)) {
+        return block_fault(block, DIAG_E0253, block_here(block), "`density_file` needs `df3` and the name of a file");
+    }
+    cursor_skip(&block->cursor);
+    if (!image_read_source(block, PICTURE_DF3, &image.source, &image.span) ||
+        !pattern_begin(block, PATTERN_DENSITY_FILE, item)) {
+        return false;
+    }
+    take_as_it_is(&image);
+    part->image = arena_copy(block->arena, &image, sizeof image);
+    return part->image ? pattern_read_amount(block) : eval_no_memory(block->ev, item->span);
+}
+
 // ---- the file
 
 // What is said right after the name; there is no place for it further on.
@@ -102,8 +124,9 @@ static PictureFormat format_of_name(const char *name)
 {
     const char *slash = strrchr(name, '/'), *dot = strrchr(slash ? slash : name, '.');
     unsigned format = PICTURE_PNG;
-    while (dot && format < PICTURE_FORMATS && strcmp(endings[format][0], dot) != 0 &&
-           (!endings[format][1] || strcmp(endings[format][1], dot) != 0)) {
+    while (dot && format < PICTURE_FORMATS &&
+           (format == PICTURE_DF3 ||
+            (strcmp(endings[format][0], dot) != 0 && (!endings[format][1] || strcmp(endings[format][1], dot) != 0)))) {
         format++;
     }
     return (PictureFormat)format;
@@ -136,7 +159,7 @@ bool image_read_source(Block *block, PictureFormat format, PictureSource *source
     source->space = settings->gamma_model == GAMMA_NONE && source->is_modern ? GAMMA_LINEAR : settings->gamma_model;
     source->space_gamma = settings->gamma_model == GAMMA_POWER ? settings->assumed_gamma : 0.0;
     *span = item->span;
-    return source->path && read_encoding(block, source);
+    return source->path && (format == PICTURE_DF3 || read_encoding(block, source));
 }
 
 static bool read_file(Block *block, PictureFormat format)
@@ -148,7 +171,8 @@ static bool read_file(Block *block, PictureFormat format)
 PictureFormat image_format(const char *word)
 {
     unsigned format = 0;
-    while (format < PICTURE_FORMATS && strcmp(picture_format_word((PictureFormat)format), word) != 0) {
+    while (format < PICTURE_FORMATS &&
+           (format == PICTURE_DF3 || strcmp(picture_format_word((PictureFormat)format), word) != 0)) {
         format++;
     }
     return (PictureFormat)format;

@@ -26,6 +26,9 @@ static const char *owners_of(Symbol word, const Pattern *pattern, bool *is_one)
     case W_control1:
         *is_one = type == PATTERN_QUILTED;
         return "`quilted`";
+    case W_interpolate:
+        *is_one = type == PATTERN_DENSITY_FILE;
+        return "`density_file`";
     case W_agate_turb:
         *is_one = type == PATTERN_AGATE;
         return "`agate`";
@@ -54,6 +57,7 @@ static bool is_of_pattern(const SchemaProperty *property)
     case ACTION_TILES:
     case ACTION_INSIDE:
     case ACTION_PICTURE:
+    case ACTION_DENSITY:
     case ACTION_WARP:
     case ACTION_PATTERN_SOLID:
     case ACTION_FRACTAL:
@@ -83,7 +87,7 @@ static bool fits_texture(Block *block, const SchemaProperty *property, const Ast
     bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_FUNCTION ||
                        property->action == ACTION_SLOPE || property->action == ACTION_TILES ||
                        property->action == ACTION_INSIDE || property->action == ACTION_MAP ||
-                       property->action == ACTION_PICTURE; // of its own
+                       property->action == ACTION_PICTURE || property->action == ACTION_DENSITY; // of its own
     return !is_word || !block->is_plain || has_message ||
            block_fault(block, DIAG_E0256, item->span, "`%s` can stand only in a texture that begins with a pattern",
                        property->word);
@@ -174,6 +178,9 @@ static void begin_pattern(Pattern *pattern, PatternType type)
     }
     if (type == PATTERN_AGATE) {
         pattern->agate_turb = 1.0;
+    }
+    if (type == PATTERN_DENSITY_FILE) {
+        pattern->count = 0;
     }
     bool is_fractal = type == PATTERN_MANDEL || type == PATTERN_JULIA;
     pattern->magnet = 0;

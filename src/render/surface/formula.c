@@ -59,6 +59,11 @@ double formula_picture(const Pattern *pattern, const NoiseSource *source, Vec3 p
     return image_value(&source->table->images[pattern->image], p);
 }
 
+double formula_density(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return image_density(&source->table->images[pattern->image], pattern->count, p);
+}
+
 double formula_material(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     return image_number(&source->table->images[pattern->image], p, (uint32_t)pattern->count);

@@ -13,8 +13,9 @@ double formula_value(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 void formula_paint(FormulaHost *host, const NoiseSource *source);
 void formula_unpaint(FormulaHost *host, const NoiseSource *source);
 
-// What a picture tells, and the number of a texture.
+// What a picture tells, what a cube of values, and the number of a texture.
 double formula_picture(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double formula_density(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double formula_material(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double formula_pigment(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 

@@ -36,4 +36,7 @@ double image_value(const PreparedImage *image, Vec3 point);
 uint32_t image_number(const PreparedImage *image, Vec3 point, uint32_t count);
 Vec3 image_bumped(const PreparedImage *image, double amount, Vec3 point, Vec3 normal);
 
+// Of values that fill the cube from 0 to 1, 0 elsewhere; `how` is Pattern.count.
+double image_density(const PreparedImage *image, int how, Vec3 point);
+
 #endif

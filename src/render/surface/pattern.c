@@ -184,6 +184,7 @@ static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_SLOPE] = facing_slope,
     [PATTERN_AOI] = facing_aoi,
     [PATTERN_IMAGE_PATTERN] = formula_picture,
+    [PATTERN_DENSITY_FILE] = formula_density,
     [PATTERN_MATERIAL_MAP] = formula_material,
     [PATTERN_MANDEL] = pattern_fractal,
     [PATTERN_JULIA] = pattern_fractal,
