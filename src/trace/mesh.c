@@ -139,6 +139,29 @@ void mesh_surface(const PreparedPrimitive *primitive, const Ray *ray, uint32_t f
                           : vec3_normalize(linear_normal(&primitive->to_object, face_normal(mesh, face, &at)));
 }
 
+// The product of both is the same in both spaces but for rounding.
+bool mesh_is_left(const PreparedPrimitive *primitive, const Ray *ray, const Ray *object, uint32_t face)
+{
+    const Mesh *mesh = primitive->mesh.table->mesh;
+    Vec3 columns = primitive->columns, point, normal;
+    if (mesh->field ? !mesh->field->normals : !mesh_face_is_smooth(mesh, face)) {
+        Vec3 own[4];
+        double weights[4];
+        if (mesh->field) {
+            (void)mesh_field_normals(mesh->field, face, vec3(0.0, 0.0, 0.0), own, weights);
+        } else {
+            own[0] = mesh_face_normal(mesh, face);
+        }
+        double along = vec3_dot(own[0], object->direction);
+        double size = fabs(own[0].x) * columns.x + fabs(own[0].y) * columns.y + fabs(own[0].z) * columns.z;
+        if (fabs(along) > 0x1p-40 * size && size > 0x1p-400 && size < 0x1p400) {
+            return along > 0.0;
+        }
+    }
+    mesh_surface(primitive, ray, face, &point, &normal);
+    return vec3_dot(normal, ray->direction) > 0.0;
+}
+
 Vec3 mesh_plane(const PreparedPrimitive *primitive, uint32_t shape_index)
 {
     return mesh_face_normal(primitive->mesh.table->mesh, shape_index - primitive->mesh.first_face);

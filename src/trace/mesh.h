@@ -31,6 +31,10 @@ double mesh_crossing_error(const PreparedPrimitive *primitive, const Ray *ray, c
 // Where the ray hit a face, and the normal that light sees.
 void mesh_surface(const PreparedPrimitive *primitive, const Ray *ray, uint32_t face, Vec3 *point, Vec3 *normal);
 
+// Whether the ray, which is `object` in the primitive's own space, goes along the normal that light sees where it hit a
+// face: as mesh_surface has it.
+bool mesh_is_left(const PreparedPrimitive *primitive, const Ray *ray, const Ray *object, uint32_t face);
+
 // Along the normal of a face's plane, in the primitive's own space; `shape` is of the face.
 Vec3 mesh_plane(const PreparedPrimitive *primitive, uint32_t shape_index);
 

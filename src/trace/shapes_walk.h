@@ -88,6 +88,10 @@ static double bounded_error(const ShapeQuery *q, const Ray *object, const Hit *h
     if (primitive->kind == PRIMITIVE_SPHERE) {
         return primitive_ball_error(primitive, q->ray, object, hit->t);
     }
+    if (primitive_is_mesh(primitive)) {
+        return mesh_crossing_error(primitive, q->ray, object, hit->t,
+                                   shape_index(hit->shape) - primitive->mesh.first_face);
+    }
     if (primitive_is_flat(primitive)) {
         return primitive_crossing_error(primitive, q->ray, object, hit->t, 0);
     }
@@ -139,22 +143,35 @@ static void ball_offer(ShapeQuery *q, const Ray *object, const SphereRay *ray, P
     root_offer(q, &root, error, first);
 }
 
-// Takes a primitive, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
-// asks. True when it was.
+// Whether a root in t ± bound is the first for certain, of an item whose box the ray enters there.
+static bool span_is_first(double t, double bound, double enter, const Foremost *first)
+{
+    double to = t + bound < enter ? enter : t + bound;
+    return to < first->from && to < first->beaten && to < first->limit;
+}
+
+// Takes a hit with a primitive, in t ± bound, as the first; its span is computed when somebody asks.
+static void span_take(ShapeQuery *q, const PreparedPrimitive *primitive, Hit hit, double bound, double enter,
+                      Foremost *first)
+{
+    first->hit = hit;
+    first->order = primitive->order;
+    first->is_torn = false;
+    first->from = hit.t - bound < enter ? enter : hit.t - bound;
+    first->limit = hit.t + bound < enter ? enter : hit.t + bound;
+    q->bounded = primitive;
+    q->bounded_enter = enter;
+}
+
+// Takes a primitive, whose root is in t ± bound, as the first where that is certain. True when it was.
 static bool primitive_is_first(ShapeQuery *q, PrimitiveRoot root, double bound, double enter, Foremost *first)
 {
     const PreparedPrimitive *primitive = &q->table->primitives[root.index];
-    double t = root.t, to = t + bound < enter ? enter : t + bound;
-    if (!(to < first->from && to < first->beaten && to < first->limit)) {
+    Hit hit = {root.t, primitive_shape(root.index, 0), root.leaves != primitive->flips};
+    if (!span_is_first(root.t, bound, enter, first)) {
         return false;
     }
-    first->hit = (Hit){t, primitive_shape(root.index, 0), root.leaves != primitive->flips};
-    first->order = primitive->order;
-    first->is_torn = false;
-    first->from = t - bound < enter ? enter : t - bound;
-    first->limit = to;
-    q->bounded = primitive;
-    q->bounded_enter = enter;
+    span_take(q, primitive, hit, bound, enter, first);
     return true;
 }
 
@@ -318,39 +335,59 @@ RT_ALWAYS_INLINE void convex_closest(ShapeQuery *q, uint32_t index, const Ray *o
 // How far a face may be behind the limit at which it still counts, see MESH_ERROR_MOST.
 #define MESH_BEYOND (1.0 + 2.0 * MESH_ERROR_MOST)
 
-static bool face_is_passed(ShapeQuery *q, const PreparedPrimitive *primitive, const Ray *object, double t,
-                           uint32_t face, double passed)
+// The faces of a mesh on a ray's way.
+typedef struct MeshWay {
+    const PreparedPrimitive *primitive;
+    Ray object;
+    MeshQuery query;
+    double enter;    // of the mesh's box
+    bool has_passed; // what lies within rounding of the ray's start
+} MeshWay;
+
+static bool face_is_passed(ShapeQuery *q, const MeshWay *way, double t, uint32_t face)
 {
-    return passed >= 0.0 && is_passed(t, mesh_crossing_error(primitive, q->ray, object, t, face), passed);
+    return way->has_passed && !(t > MESH_ERROR_MOST * t + start_error(q)) &&
+           is_passed(t, mesh_crossing_error(way->primitive, q->ray, &way->object, t, face), start_error(q));
 }
 
-static void face_found(ShapeQuery *q, const PreparedPrimitive *primitive, const Ray *object, double t, uint32_t face,
-                       Foremost *first)
+static void face_found(ShapeQuery *q, const MeshWay *way, double t, uint32_t face, Foremost *first)
 {
-    double enter;
-    if (item_enters(q, &enter)) {
-        RootSpan span = crossing_span(t, mesh_crossing_error(primitive, q->ray, object, t, face), enter);
-        face_offer(q->table, shape_id(SHAPE_FACE, primitive->mesh.first_face + face), q->ray, t, span, first);
+    const PreparedPrimitive *primitive = way->primitive;
+    ShapeId shape = shape_id(SHAPE_FACE, primitive->mesh.first_face + face);
+    double most = MESH_ERROR_MOST * t;
+    bool is_first = span_is_first(t, most, way->enter, first);
+    if (is_first && q->is_any) {
+        first->hit.shape = shape;
+    } else if (is_first) {
+        bool leaves = mesh_is_left(primitive, q->ray, &way->object, face);
+        span_take(q, primitive, (Hit){t, shape, leaves != primitive->flips}, most, way->enter, first);
+    } else {
+        span_refine(q, first);
+        double error = mesh_crossing_error(primitive, q->ray, &way->object, t, face);
+        face_offer(q->table, shape, q->ray, t, crossing_span(t, error, way->enter), first);
     }
 }
 
 static __attribute__((noinline)) void mesh_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
-    const PreparedPrimitive *primitive = &q->table->primitives[index];
+    MeshWay way;
+    const PreparedPrimitive *primitive = way.primitive = &q->table->primitives[index];
     const MeshTable *table = primitive->mesh.table;
     uint32_t left = q->start.shape != SHAPE_NONE && shape_kind(q->start.shape) == SHAPE_FACE
                         ? shape_index(q->start.shape) - primitive->mesh.first_face
                         : MESH_NO_FACE;
-    Ray object = primitive_ray(primitive, q->ray);
-    double passed = passed_error(q, primitive);
-    MeshQuery query;
     BvhWalk walk;
     BvhChild leaf;
-    span_refine(q, first);
-    mesh_query_make(&query, &object);
-    double nearest = first->limit * query.length * MESH_BEYOND;
+    if (!item_enters(q, &way.enter) || way.enter > first->limit) {
+        return;
+    }
+    way.object = primitive_ray(primitive, q->ray);
+    way.has_passed = starts_beside(q->table, q->start, primitive);
+    mesh_query_make(&way.query, &way.object);
+    const MeshQuery *query = &way.query;
+    double nearest = first->limit * query->length * MESH_BEYOND;
     uint32_t found = MESH_NO_FACE;
-    if (!bvh_walk_start(&walk, &table->tree, query.ray.origin, query.ray.direction)) {
+    if (!bvh_walk_start(&walk, &table->tree, query->ray.origin, query->ray.direction)) {
         return;
     }
     while (bvh_walk_next(&walk, bvh_walk_limit(&walk, nearest), &leaf)) {
@@ -358,13 +395,13 @@ static __attribute__((noinline)) void mesh_closest(ShapeQuery *q, uint32_t index
         for (uint32_t i = begin; i < end; i++) {
             MeshPoint at;
             uint32_t face = table->faces[i];
-            if (!mesh_ray_crosses(&query.shear, table->mesh, face, &at) || !(at.t > 0.0) || face == left ||
-                !(at.t < nearest || (at.t == nearest && face < found)) || !mesh_shows(table, &query.ray, at.t, face) ||
-                face_is_passed(q, primitive, &object, at.t / query.length, face, passed)) {
+            if (!mesh_ray_crosses(&query->shear, table->mesh, face, &at) || !(at.t > 0.0) || face == left ||
+                !(at.t < nearest || (at.t == nearest && face < found)) || !mesh_shows(table, &query->ray, at.t, face) ||
+                face_is_passed(q, &way, at.t / query->length, face)) {
                 continue;
             }
             if (q->is_any) {
-                face_found(q, primitive, &object, at.t / query.length, face, first);
+                face_found(q, &way, at.t / query->length, face, first);
                 if (first->hit.shape != SHAPE_NONE) {
                     return;
                 }
@@ -375,7 +412,7 @@ static __attribute__((noinline)) void mesh_closest(ShapeQuery *q, uint32_t index
         }
     }
     if (found != MESH_NO_FACE) {
-        face_found(q, primitive, &object, nearest / query.length, found, first);
+        face_found(q, &way, nearest / query->length, found, first);
     }
 }
 
@@ -485,7 +522,13 @@ static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
             return;
         }
     }
-    if (table->bounded_count == 0 || !bvh_walk_start(&walk, &table->tree, q->ray->origin, q->ray->direction)) {
+    if (table->bounded_count == 1 && q->known != table->unbounded_count) { // its box is asked anyway
+        q->at = table->unbounded_count;
+        q->box = table->boxes;
+        item_closest(q, table->items[q->at], first);
+        return;
+    }
+    if (table->bounded_count <= 1 || !bvh_walk_start(&walk, &table->tree, q->ray->origin, q->ray->direction)) {
         return;
     }
     if (beam) {

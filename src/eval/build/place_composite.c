@@ -74,7 +74,7 @@ static bool bound_holds(Eval *ev, const Primitive *bound, SchemaKind kind, const
     return does;
 }
 
-// The shape of a bound, if it can be told whether it holds others.
+// The shape of a bound, if it can be decided whether it holds others.
 static bool bound_make(Eval *ev, const Clip *bound, const Transform *outer, Primitive *primitive)
 {
     const ObjectPart *common = bound->object;

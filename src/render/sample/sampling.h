@@ -368,7 +368,7 @@ void predictor_keep_sorts(Predictor *predictor, const uint16_t *buckets, size_t 
 void predictor_see_starts(Predictor *predictor, const Allocation *allocation, const Round *round);
 
 typedef struct Forecast {
-    double samples;      // of the whole run; 0: it cannot be told
+    double samples;      // of the whole run; 0: unknown
     double pixels;       // each as often as it will take part in a round still to come
     double round_pixels; // that take part in the next
     double rounds;       // after that
