@@ -16,7 +16,7 @@ void batch_init(Batch *batch, const Round *round, RenderScratch *scratch)
     batch->meets = batch->avoids = false;
     batch->keeps_squares = round->sampling->is_adaptive || stop_has_choice(round->sampling);
     batch->places.lens = has_lens ? batch->lens : NULL;
-    batch->draws = has_lens || (p->kernel->features & RENDER_LIGHTS);
+    batch->draws = round->draws_more;
 }
 
 void batch_trace(const Round *round, Batch *batch, uint64_t wanted, RenderStatistics *counted)

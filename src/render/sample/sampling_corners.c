@@ -12,8 +12,14 @@
 
 #include "render/sample/sampling.h"
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 enum {
-    PROBE_SQUARE = 4,  // a pixel of each square of so many by so many
+    PROBE_SQUARE = 4,  // a pixel of each square of so many by so many;
+    PROBE_SQUARE_LARGE = 8, // of a picture of
+    PIXELS_LARGE = 65536, // or more, where those are enough to tell what a sort is off by
     SORT_MIDDLE = 24,  // the sort of a square of 1
     PROBES_LEAST = 12, // of a sort, or of sorts that are taken together
 };
@@ -34,12 +40,20 @@ static inline Float4 pick(Int4 which, Float4 a, Float4 b)
 
 static inline Float4 least(Float4 a, Float4 b)
 {
+#ifdef __SSE2__
+    return (Float4)_mm_min_ps((__m128)a, (__m128)b);
+#else
     return pick(a < b, a, b);
+#endif
 }
 
 static inline Float4 most(Float4 a, Float4 b)
 {
+#ifdef __SSE2__
+    return (Float4)_mm_max_ps((__m128)a, (__m128)b);
+#else
     return pick(a > b, a, b);
+#endif
 }
 
 // A corner's colours; the fourth is of what follows in memory.
@@ -108,12 +122,13 @@ static inline uint16_t sort_of(float square)
 // Marks them, and counts them.
 static uint32_t probes_choose(const Film *film, uint64_t seed, uint16_t *buckets)
 {
-    uint32_t count = 0;
-    int first_x = film->left - film->left % PROBE_SQUARE, first_y = film->top - film->top % PROBE_SQUARE;
-    for (int top = first_y - film->top; top < film->height; top += PROBE_SQUARE) {
-        for (int left = first_x - film->left; left < film->width; left += PROBE_SQUARE) {
+    double size = (double)film->whole_width * film->whole_height;
+    uint32_t count = 0, square = size < PIXELS_LARGE ? PROBE_SQUARE : PROBE_SQUARE_LARGE;
+    int step = (int)square, first_x = film->left - film->left % step, first_y = film->top - film->top % step;
+    for (int top = first_y - film->top; top < film->height; top += step) {
+        for (int left = first_x - film->left; left < film->width; left += step) {
             uint32_t chosen = sampler_pixel_seed(~seed, (uint32_t)(film->left + left), (uint32_t)(film->top + top));
-            int x = left + (int)(chosen % PROBE_SQUARE), y = top + (int)(chosen / PROBE_SQUARE % PROBE_SQUARE);
+            int x = left + (int)(chosen % square), y = top + (int)(chosen / square % square);
             if (x >= 0 && x < film->width && y >= 0 && y < film->height) {
                 buckets[(size_t)y * (size_t)film->width + (size_t)x] |= CORNER_PASS_PROBE;
                 count++;

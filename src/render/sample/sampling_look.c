@@ -362,7 +362,7 @@ void look_trace(const Round *round, Looks *looks, Tile tile, RenderScratch *scra
     const Film *film = round->film;
     LookBatch batch = {.scratch = scratch};
     batch.places.lens = p->camera.lens_radius > 0.0 ? batch.lens : NULL;
-    batch.draws = batch.places.lens || (p->kernel->features & RENDER_LIGHTS);
+    batch.draws = round->draws_more;
     for (int i = 0; i < looks->count; i++) {
         LookPick *pick = &looks->picks[i];
         int x = (int)(pick->pixel % (size_t)film->width), y = (int)(pick->pixel / (size_t)film->width);

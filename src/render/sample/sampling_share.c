@@ -586,7 +586,7 @@ void share_set_contrasts(const Round *round)
     for (uint32_t i = 0; i < share->pixel_count; i++) {
         uint32_t pixel = share->pixels[i];
         ShareContrast *contrast = &share->contrasts[share->first[pixel]];
-        if (contrast->sliver > 0.0f) {
+        if (contrast->sliver > 0.0f && contrast->samples > 1) {
             contrast->around = (float)contrast_around(round, (int)(pixel % width), (int)(pixel / width), of_all);
         }
     }

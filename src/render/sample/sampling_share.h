@@ -88,7 +88,7 @@ typedef struct ShareMeans {
 } ShareMeans;
 
 // The variance of the mean of a pixel's samples, of which there are `count`, that strata bring which are too small to
-// be weighted by their shares: as share_set_contrasts knows it. The pixel has strata.
+// be weighted by their shares: as share_set_contrasts knows it. The pixel has strata, and more than its corners.
 static inline double share_variance(const Share *share, size_t pixel, double count)
 {
     const ShareContrast *contrast = &share->contrasts[share->first[pixel]];
