@@ -255,7 +255,7 @@ static GrammarRound round_make(const Readers *readers)
     return round;
 }
 
-// Takes this process's statements, in as many pieces as it has told of. False: they cannot be kept.
+// Takes this process's statements, in as many pieces as it has reported. False: they cannot be kept.
 static bool round_take(GrammarState *state, const Readers *readers)
 {
     bool is_whole, is_kept = true;
@@ -266,7 +266,7 @@ static bool round_take(GrammarState *state, const Readers *readers)
     return is_kept;
 }
 
-// Goes on behind what all have read, up to the first whose text did not begin where that of the one before ended. False:
+// Continues after what all have read, up to the first whose text did not begin where that of the one before ended. False:
 // that is not all, or nothing can be done any more.
 static bool rounds_take(GrammarState *state, const Readers *readers)
 {

@@ -38,7 +38,7 @@ def codes():
 
 def texts():
     """code -> number of strings in its entry: 3 with scenes, 2 without."""
-    entries = re.findall(r"^(TEXT|TOLD)\((\w+),", read(f"{TOP}/src/base/diag_texts.def"), re.M)
+    entries = re.findall(r"^(TEXT|SITUATION)\((\w+),", read(f"{TOP}/src/base/diag_texts.def"), re.M)
     return {code: kind for kind, code in entries}
 
 

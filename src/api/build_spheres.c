@@ -20,7 +20,7 @@
 typedef struct FilledRun {
     SphereSurvey survey;
     size_t colors; // that are unlike the one before
-    bool is_odd;   // there is something to be told of it
+    bool is_odd;   // there is something to report of it
     bool has_points;
 } FilledRun;
 
@@ -125,7 +125,7 @@ static bool has_odd_color(const Material *materials, size_t count)
     return is_odd;
 }
 
-// A material for each of a run, and how many are unlike the one before; likewise. Nearly all colours are told by their
+// A material for each of a run, and how many are unlike the one before; likewise. Nearly all colours differ by their
 // size.
 RT_ALWAYS_INLINE void fill_colors_of(const Filling *filling, size_t begin, size_t end, FilledRun *run, rt_number number,
                                      int color_numbers)
@@ -324,7 +324,7 @@ static bool commit_all(Filling *filling, bool has_points)
     return true;
 }
 
-// Fills until nothing is odd that was not told. False after a fault, and out of memory, which *has_memory tells.
+// Fills until nothing is odd that was not reported. False after a fault, and out of memory, which *has_memory tells.
 static bool fill_told(Filling *filling, const ArrayCheck checks[3], bool *has_points, bool *has_memory)
 {
     const ShapeList *list = filling->list;

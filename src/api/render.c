@@ -153,7 +153,7 @@ static Prepared *prepare(rt_session *session, int threads)
     return prepared;
 }
 
-// The film, and what of the options the prepared scene is told. False after a report.
+// The film, and what of the options the prepared scene gets. False after a report.
 static bool begin_film(rt_session *session, Prepared *prepared)
 {
     Film *film = &session->film;

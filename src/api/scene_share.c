@@ -25,11 +25,11 @@ rt_status rt_share_scene(rt_session *session)
 
 // ---- reading
 
-enum { ROUND_MOST = 64 }; // bytes that a rank tells of a round
+enum { ROUND_MOST = 64 }; // bytes that a rank sends in a round
 
 typedef struct ReadRound {
     uint64_t has_ended;
-    unsigned char told[ROUND_MOST];
+    unsigned char values[ROUND_MOST];
 } ReadRound;
 
 void *session_scene_gather(rt_session *session, const void *own, size_t length)
@@ -62,13 +62,13 @@ static bool exchange(void *client, const void *own, void *all, size_t length)
 {
     rt_session *session = client;
     ReadRound round = {0};
-    if (length > sizeof round.told) {
+    if (length > sizeof round.values) {
         return false;
     }
-    memcpy(round.told, own, length);
+    memcpy(round.values, own, length);
     ReadRound *rounds = session_scene_gather(session, &round, sizeof round);
     for (int i = 0; i < session->sharing.ranks.ranks; i++) {
-        memcpy((unsigned char *)all + (size_t)i * length, rounds[i].told, length);
+        memcpy((unsigned char *)all + (size_t)i * length, rounds[i].values, length);
     }
     bool goes_on = read_on(session, &round, rounds);
     free(rounds);
@@ -212,7 +212,7 @@ bool session_scene_agree(rt_session *session)
     if (!scene_range_is_held(scene, &scene->survey)) {
         return refuse(session, scene->whole, "lengths that no scale holds together");
     }
-    return session_scene_tell(session);
+    return session_scene_report(session);
 }
 
 rt_status session_scene_budget(rt_session *session, rt_budget own, rt_budget *greatest)

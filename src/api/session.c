@@ -151,7 +151,7 @@ void rt_cancel(rt_session *session)
     atomic_store(&session->cancel, true);
 }
 
-// Told as warnings, or as errors by -Werror.
+// Reported as warnings, or as errors by -Werror.
 static uint64_t out_of_range(const DiagSink *diags)
 {
     return diags->reported[DIAG_W0440] + diags->reported[DIAG_W0441] + diags->reported[DIAG_W0442] +

@@ -258,8 +258,8 @@ const EvalShare *session_scene_reading(rt_session *session);
 bool session_scene_read(rt_session *session);
 // What each rank has, `length` bytes, one after the other; to be freed. Called by all ranks.
 void *session_scene_gather(rt_session *session, const void *own, size_t length);
-// Tells of the scene what only all its spheres together can; called by all ranks.
-bool session_scene_tell(rt_session *session);
+// Reports of the scene what only all its spheres together show; called by all ranks.
+bool session_scene_report(rt_session *session);
 // The greatest of all ranks' budgets; {0} where the scene could not be loaded.
 rt_status session_scene_budget(rt_session *session, rt_budget own, rt_budget *greatest);
 // Of a scene of which each rank has a part: what refuses it and what all ranks must know of it. Called by all ranks once

@@ -41,14 +41,14 @@ static bool session_read_piece(rt_session *session, const char *name, const char
     scene_init(scene);
     scene->settings = session->scene.settings;
     Piece piece = {source_open_text(session->sources, name, text, strlen(text)), scene};
-    size_t told = session->diags.count;
+    size_t before = session->diags.count;
     if (!piece.source) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", name);
         return false;
     }
     bool is_fine = session_run_deep(session, read_piece, &piece) == RT_OK;
     source_close(piece.source);
-    if (session->diags.count == told) {
+    if (session->diags.count == before) {
         source_drop(piece.source); // nothing points there
     }
     return is_fine;

@@ -18,10 +18,10 @@ typedef struct Explanation {
 
 static const Explanation explanations[DIAG_CODE_COUNT] = {
 #define TEXT(code, wrong, right, text) [DIAG_##code] = {wrong, right, text},
-#define TOLD(code, example, text)      [DIAG_##code] = {example, NULL, text},
+#define SITUATION(code, example, text) [DIAG_##code] = {example, NULL, text},
 #include "base/diag_texts.def"
 #undef TEXT
-#undef TOLD
+#undef SITUATION
 };
 
 bool explain_find(const char *name, DiagCode *code)

@@ -1,4 +1,4 @@
-// What AddressSanitizer is told of memory that is ours but nobody's at the moment: a build without it does nothing.
+// What AddressSanitizer learns of memory that is ours but nobody's at the moment: a build without it does nothing.
 //
 // A block that goes back to a list, or the part of a chunk that is not handed out, is hidden: who reads or writes there
 // is reported. Whoever hands it out shows it. Knows nothing of who owns the memory.

@@ -55,10 +55,16 @@ static size_t move_huge_pages(void *to, void *from, size_t bytes)
 #endif
 }
 
+// The last page is a huge one, too: the faults of a few hundred small ones take longer than clearing it.
+static size_t whole_pages(size_t bytes)
+{
+    return (bytes + huge_page - 1) & ~(huge_page - 1);
+}
+
 // realloc would fail to move pages of which some are huge and some are not, and copy them to small ones.
 void *pages_grow(void *memory, size_t old_bytes, size_t bytes)
 {
-    size_t whole = (bytes + huge_page - 1) & ~(huge_page - 1);
+    size_t whole = whole_pages(bytes);
     if (!is_large(bytes) || whole < bytes) {
         return realloc(memory, bytes);
     }
@@ -73,12 +79,6 @@ void *pages_grow(void *memory, size_t old_bytes, size_t bytes)
     }
     free(memory);
     return moved;
-}
-
-// The last page is a huge one, too: the faults of a few hundred small ones take longer than clearing it.
-static size_t whole_pages(size_t bytes)
-{
-    return (bytes + huge_page - 1) & ~(huge_page - 1);
 }
 
 // The memory begins on a huge page, which is looked for in a mapping that is larger by one.
@@ -142,10 +142,11 @@ void *cleared_new(size_t count, size_t size)
         return NULL;
     }
     size_t bytes = count * size > 0 ? count * size : 1;
-    void *memory = bytes > at_once ? calloc(bytes, 1) : pages_grow(NULL, 0, bytes);
     if (bytes > at_once) {
-        pages_prefer_huge(memory, bytes);
-        return memory;
+        void *touched_later = calloc(bytes, 1);
+        pages_prefer_huge(touched_later, bytes);
+        return touched_later;
     }
+    void *memory = pages_grow(NULL, 0, bytes);
     return memory ? memset(memory, 0, bytes) : NULL;
 }

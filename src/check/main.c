@@ -404,7 +404,7 @@ static int report_write(const Check *check, int exit_code)
     return exit_code;
 }
 
-// All scenes and what is told of them. What was done before an interrupt is in the report.
+// All scenes and what is reported of them. What was done before an interrupt is in the report.
 static int scenes_report(Check *check)
 {
     const char *folder = check->options->report;

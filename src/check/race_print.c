@@ -8,14 +8,14 @@
 #include "check/json.h"
 #include "check/report_html.h"
 
-// The ratios that are said, and what each is called.
-typedef struct Told {
+// The ratios that are printed, and the name of each.
+typedef struct PrintedRatio {
     RaceTime time;
     RaceJudge judge;
     const char *name, *text;
-} Told;
+} PrintedRatio;
 
-static const Told told[] = {
+static const PrintedRatio ratios[] = {
     {RACE_CPU, RACE_BY_RTLANG, "cpu", "processor, one thread"},
     {RACE_WALL, RACE_BY_RTLANG, "wall", "clock, one thread"},
     {RACE_WHOLE, RACE_BY_RTLANG, "whole", "processor, with reading and writing"},
@@ -24,7 +24,7 @@ static const Told told[] = {
     {RACE_CPU, RACE_BY_POVRAY, "cpu_by_povray", "processor, against POV-Ray's reference"},
     {RACE_CPU, RACE_BY_OTHER, "cpu_by_other", "processor, each against the other's reference"},
 };
-#define TOLD ((int)RT_COUNT_OF(told))
+#define PRINTED_RATIOS ((int)RT_COUNT_OF(ratios))
 
 static void print_ratio(const RaceRatio *ratio, FILE *out)
 {
@@ -66,9 +66,9 @@ static void print_head(const Race *race, FILE *out, const char *before, const ch
 
 static void print_ratios(const Race *race, FILE *out, const char *before, const char *after)
 {
-    for (int i = 0; i < TOLD; i++) {
-        RaceRatio ratio = race_ratio(race, told[i].time, told[i].judge);
-        fprintf(out, "%sto equal error POV-Ray takes times as long as rtlang, %s: ", before, told[i].text);
+    for (int i = 0; i < PRINTED_RATIOS; i++) {
+        RaceRatio ratio = race_ratio(race, ratios[i].time, ratios[i].judge);
+        fprintf(out, "%sto equal error POV-Ray takes times as long as rtlang, %s: ", before, ratios[i].text);
         print_ratio(&ratio, out);
         fprintf(out, "%s\n", after);
     }
@@ -148,10 +148,10 @@ void race_print_json(const Race *race, FILE *out)
     json_print_number(out, "same", race->same);
     json_print_number(out, "left_out", race->left_out);
     fputs(", \"ratios\": [", out);
-    for (int i = 0; i < TOLD; i++) {
-        RaceRatio ratio = race_ratio(race, told[i].time, told[i].judge);
+    for (int i = 0; i < PRINTED_RATIOS; i++) {
+        RaceRatio ratio = race_ratio(race, ratios[i].time, ratios[i].judge);
         fprintf(out, "%s{\"name\": ", i > 0 ? ", " : "");
-        json_print_text(out, told[i].name);
+        json_print_text(out, ratios[i].name);
         json_print_number(out, "ratio", ratio.ratio);
         json_print_number(out, "least", ratio.least);
         json_print_number(out, "greatest", ratio.greatest);
@@ -234,7 +234,7 @@ void race_print_html(const Race *race, FILE *out)
 void race_total_add(RaceTotal *total, const Race *race)
 {
     for (int i = 0; i < RACE_TOTALS; i++) {
-        RaceRatio ratio = race_ratio(race, told[i].time, told[i].judge);
+        RaceRatio ratio = race_ratio(race, ratios[i].time, ratios[i].judge);
         if (!isnan(ratio.ratio)) {
             total->scenes[i]++;
             total->logarithms[i] += log(ratio.ratio);
@@ -245,14 +245,14 @@ void race_total_add(RaceTotal *total, const Race *race)
 
 void race_print_total(const RaceTotal *total, FILE *out, const char *before, const char *after)
 {
-    _Static_assert(RACE_TOTALS == TOLD, "a total for each ratio that is said");
+    _Static_assert(RACE_TOTALS == PRINTED_RATIOS, "a total for each ratio that is printed");
     for (int i = 0; i < RACE_TOTALS; i++) {
         if (total->scenes[i] > 1) {
             fprintf(out,
                     "%sover %d scenes POV-Ray takes %.1f times as long as rtlang to equal error, geometric mean; least "
                     "%.1f: %s%s\n",
                     before, total->scenes[i], exp(total->logarithms[i] / total->scenes[i]), total->least[i],
-                    told[i].text, after);
+                    ratios[i].text, after);
         }
     }
 }

@@ -2,7 +2,7 @@
 //
 // Turns a scene into a table of what each run cost and how far its picture was from the reference, lines through the
 // points, and what follows from them: which methods stay biased, and how long each takes to an equal error. The
-// reference is made by another sampler; its own error is known and is the floor below which nothing is told. The time
+// reference is made by another sampler; its own error is known and is the floor below which nothing is reported. The time
 // of metrics is in no run's time. Knows nothing of how it is printed.
 //
 // SPDX-License-Identifier: MIT

@@ -17,7 +17,7 @@ typedef struct Progress {
 // The next run is a part of several, counted from 0, which have one bar.
 void progress_share(Progress *progress, int part, int parts);
 void progress_begin(Progress *progress, bool enabled);
-// `note` is told behind the bar; may be NULL. `seconds_left` below 0: by what is done.
+// `note` is printed after the bar; may be NULL. `seconds_left` below 0: by what is done.
 void progress_update(Progress *progress, double done, double seconds_left, const char *note);
 void progress_end(Progress *progress); // wipes the bar
 

@@ -83,7 +83,7 @@ void summary_print_error(FILE *out, const rt_session *session, const Options *op
                 (unsigned long long)photons.emitted, (unsigned long long)photons.met,
                 (unsigned long long)photons.arrived, (double)photons.emitted / (double)photons.arrived);
     }
-    // Told where it alone could be more than all of the error that is known.
+    // Reported where it alone could be more than all of the error that is known.
     if (error.missed_error > error.high) {
         fprintf(out, "missed: a detail of up to %.2g pixel%s may be in no sample, and would add up to %.2g\n",
                 error.missed_area, error.missed_area == 1.0 ? "" : "s", error.missed_error);

@@ -1,4 +1,4 @@
-// What is told when a picture is done: its size, rays and seconds, and of a sampled one its error.
+// What is printed when a picture is done: its size, rays and seconds, and of a sampled one its error.
 //
 // SPDX-License-Identifier: MIT
 #ifndef CLI_SUMMARY_H

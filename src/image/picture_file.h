@@ -56,7 +56,7 @@ ImageStatus picture_file_read(const char *path, const char *format, const Pictur
 ImageStatus picture_file_read_real(const char *real, const char *format, const PictureLimit *limit, PictureFile *file,
                                    ImageError *error) RT_MUST_CHECK;
 
-// What of that is told by the file's first bytes: IMAGE_OK when it can be opened and may be of the format.
+// What of that the file's first bytes say: IMAGE_OK when it can be opened and may be of the format.
 ImageStatus picture_file_begins(const char *real, const char *format, ImageError *error) RT_MUST_CHECK;
 
 #endif

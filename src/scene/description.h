@@ -81,7 +81,7 @@ typedef struct PatternPart {
     const WarpDesc *warps; // the last one first
     const Transform *on_surface; // from the pattern's space to surface coordinates, which nothing else moves; NULL: it
                                  // lies in space
-    bool turns;                  // bumps of it do move: their directions, that is, and not what they are told of
+    bool turns;                  // bumps of it do move: their directions, that is, and not the values given to them
     bool asks_uv;                // it or something along it lies on the surface
 } PatternPart;
 

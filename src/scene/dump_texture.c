@@ -48,7 +48,7 @@ static void dump_noise_modifiers(const Pattern *pattern, TextBuffer *out)
     }
 }
 
-// Of fractals: what is told of points that leave, and of those that stay.
+// Of fractals: what is returned for points that leave, and for those that stay.
 static void dump_told(const Pattern *pattern, TextBuffer *out)
 {
     text_printf(out, "  exterior %d", (int)pattern->exterior);

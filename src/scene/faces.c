@@ -59,7 +59,7 @@ typedef struct Faces {
     size_t count;   // of refs
     double unit;    // of distances in keys
     size_t compared;
-    uint64_t told; // the order, + 1, of the shape that was reported last
+    uint64_t reported; // the order, + 1, of the shape that was reported last
 } Faces;
 
 // ---- faces of shapes
@@ -215,14 +215,14 @@ static void compare(Faces *faces, const Rectangle *one, const Rectangle *other, 
         return;
     }
     const Face *first = a->order < b->order ? a : b, *second = first == a ? b : a;
-    if (faces->told != second->order + UINT64_C(1) &&
+    if (faces->reported != second->order + UINT64_C(1) &&
         diag_report(diags, DIAG_W0444, scene_source_span(second->source),
                     "a face of this %s coincides with one of a %s that was declared before it", second->word,
                     first->word) &&
         first->source) {
         diag_note(diags, scene_source_span(first->source), "where both are, this one is seen, the other is not");
     }
-    faces->told = second->order + UINT64_C(1);
+    faces->reported = second->order + UINT64_C(1);
 }
 
 // ---- all of them

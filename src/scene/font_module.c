@@ -166,23 +166,23 @@ static bool table_head(FT_Face face, uint32_t index, FT_Byte bytes[10])
 static void place_at_bearing(FT_Face face, FT_Pos left, FontGlyph *glyph)
 {
     FT_Byte head[10] = {0};
-    FT_BBox points, told = {0};
+    FT_BBox points, given = {0};
     FT_Outline *outline = &face->glyph->outline;
     FT_Outline_Get_CBox(outline, &points);
     bool has_head = table_head(face, glyph->index, head);
     FT_Pos begin = has_head ? int16_at(head + 2) : left;
     FT_Pos moved = left - begin; // by FreeType
     if (has_head && int16_at(head) > 0) {
-        told = (FT_BBox){begin, int16_at(head + 4), int16_at(head + 6), int16_at(head + 8)};
+        given = (FT_BBox){begin, int16_at(head + 4), int16_at(head + 6), int16_at(head + 8)};
     } else if (has_head && begin < 0) {
-        told.xMin = begin;
+        given.xMin = begin;
     }
-    FT_Pos right = left - (points.xMin - moved < told.xMin ? points.xMin - moved : told.xMin);
+    FT_Pos right = left - (points.xMin - moved < given.xMin ? points.xMin - moved : given.xMin);
     FT_Outline_Translate(outline, right - moved, 0);
     glyph->low[0] = (double)left;
-    glyph->low[1] = fmin((double)points.yMin, (double)told.yMin);
-    glyph->high[0] = (double)right + fmax((double)(points.xMax - moved), (double)told.xMax);
-    glyph->high[1] = fmax((double)points.yMax, (double)told.yMax);
+    glyph->low[1] = fmin((double)points.yMin, (double)given.yMin);
+    glyph->high[0] = (double)right + fmax((double)(points.xMax - moved), (double)given.xMax);
+    glyph->high[1] = fmax((double)points.yMax, (double)given.yMax);
 }
 
 enum { TAG_ENDS_OFF = FT_CURVE_TAG_TOUCH_X }; // which only hinting needs

@@ -72,7 +72,7 @@ typedef struct IsosurfaceLine {
     const void *client;
 } IsosurfaceLine;
 
-// A line in the surface's own space; `length` is what 1 of its parameter is in the space that `accuracy` is told in.
+// A line in the surface's own space; `length` is what 1 of its parameter is in the space that `accuracy` is given in.
 IsosurfaceLine isosurface_line(const double *list, const FormulaHost *host, Ray ray, double length);
 
 double isosurface_along(const IsosurfaceLine *line, double t);

@@ -1,7 +1,7 @@
 // Eggs: two balls, and between them what an arc of a circle about the y axis sweeps that touches both from outside.
 //
 // The greater ball's radius is half of the arc's. All is measured from half the egg's height, and is as great as the
-// primitive's numbers say: an Ovus is its data. Where a point is nearest to which of the three is told by normals of
+// primitive's numbers say: an Ovus is its data. Where a point is nearest to which of the three is decided by normals of
 // the profile: so the distance is right outside, and within as far as the arc's end. Knows nothing of rays.
 //
 // SPDX-License-Identifier: MIT

@@ -74,7 +74,7 @@ typedef struct Pattern {
     int32_t count;     // material_map: its textures; spiral1: its arms; mandel, julia: steps, at least 1
     uint32_t flags;    // PATTERN_SOLID and the like
     int32_t magnet, power;      // mandel, julia: which of the magnets, 0 for none; else the power of z in each step
-    int32_t exterior, interior; // what is told of points that leave, and of those that stay
+    int32_t exterior, interior; // what is returned for points that leave, and for those that stay
     double exterior_factor, interior_factor;
     Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar; julia: its number;
                    // quilted: its two control values; slope: the direction that it faces

@@ -1,7 +1,7 @@
 // The box of a surface that is closed: of an ellipsoid by its form; of another one where the terms of its order are
 // positive everywhere, so that far out nothing else matters.
 //
-// What holds all along a box of places is told by its corners, where no coordinate changes its sign in it: there each
+// What holds all along a box of places is known by its corners, where no coordinate changes its sign in it: there each
 // term is least at one corner and greatest at the opposite one. Where that does not tell, the box is cut, up to a
 // budget of terms; what is not known then counts as no box.
 //

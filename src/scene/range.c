@@ -463,7 +463,7 @@ static void check_spheres(const Scene *scene, const SphereSurvey *survey, const 
     }
 }
 
-bool scene_range_tells(const Scene *scene, const SphereSurvey *survey, const SphereSurvey *some)
+bool scene_range_reports(const Scene *scene, const SphereSurvey *survey, const SphereSurvey *some)
 {
     int exponent = scale_with(scene, survey).exponent;
     Watch watch = {NULL, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};

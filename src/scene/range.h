@@ -46,8 +46,8 @@ bool scene_range_is_held(const Scene *scene, const SphereSurvey *spheres);
 // of lights and cameras beyond the range. One pass.
 void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags);
 
-// Whether that may tell anything of some of the spheres that are surveyed.
-bool scene_range_tells(const Scene *scene, const SphereSurvey *survey, const SphereSurvey *some);
+// Whether that may report anything of some of the spheres that are surveyed.
+bool scene_range_reports(const Scene *scene, const SphereSurvey *survey, const SphereSurvey *some);
 
 // Warns of equal shapes that some ray could see both of. Linear in the number of shapes. False when out of memory.
 bool scene_warn_of_coincident(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;

@@ -76,7 +76,7 @@ static const SchemaProperty pattern_modifiers[] = {
     {"exponent", TYPE_INTEGER, PATTERN_AT(power), .range = {RANGE_FAULT, false, 2.0, 33.0},
      .doc = "of `mandel` and `julia`: the power of z in each step, 2 unless said"},
     {"exterior", TYPE_ACTION, ACTION_FRACTAL,
-     .doc = "of these: 0 to 6, what is told of points that leave, and times what"},
+     .doc = "of these: 0 to 6, what is returned for points that leave, and times what"},
     {"interior", TYPE_ACTION, ACTION_FRACTAL, .doc = "of these: the same of points that stay"},
     {"quilted", TYPE_ACTION, ACTION_PATTERN, .doc = "a cushion in each unit cube"},
     {"control0", TYPE_NUMBER, PATTERN_AT(vector.x), .doc = "of `quilted`: how steep in the middle; 1 unless said"},

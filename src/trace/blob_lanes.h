@@ -4,7 +4,7 @@
 // threshold for certain: its slope is known, and no component bends it up by more than a number that is known for the
 // stretch ahead. A component that a line does not come to adds nothing to any sum, so it does not matter which others a
 // vector of rays comes to. Steps end at the root, where slope and bends show that it is one by itself; or where the
-// components ahead cannot come up to the threshold any more. All else (grazing rays, from within) is not told.
+// components ahead cannot come up to the threshold any more. All else (grazing rays, from within) is left undecided.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_BLOB_LANES_H

@@ -1,6 +1,6 @@
 // A line through a fractal's ball is walked from one end to the other, as POV-Ray does it: by 1 / precision, or as far
 // as the distance is estimated to be where that is more; where a step has changed sides, the crossing is found by
-// halving to a width, and counted at the end that is inside. A ray that leaves it goes on a little before it looks;
+// halving to a width, and counted at the end that is inside. A ray that leaves it continues a little before it looks;
 // where it is inside there, where it comes out is what it meets, and too near it meets nothing. The lengths are
 // POV-Ray's, in the fractal's own space. Measured.
 //

@@ -8,7 +8,7 @@
 // SPDX-License-Identifier: MIT
 #include "trace/mesh_field_tree.h"
 
-// Nodes of one level, the size of whose blocks is told in those of the level below, or in cells.
+// Nodes of one level, the size of whose blocks is given in those of the level below, or in cells.
 typedef struct Level {
     uint32_t columns, rows;
     uint32_t across, along;

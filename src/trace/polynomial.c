@@ -23,7 +23,7 @@ _Static_assert((int)POLYNOMIAL_ORDER_MOST <= (int)ROOTS_DEGREE_MOST, "the root f
 // A root is as good as the rest of a crossing if it is off by so many u of all that makes its place.
 static const double GOOD_ROOT = 0x1p-44;
 
-// How far beyond a range crossings are told, as a share of its ends: far more than rounding does to it.
+// How far beyond a range crossings are reported, as a share of its ends: far more than rounding does to it.
 static const double WITHIN_MARGIN = 0x1p-20;
 
 typedef struct Line {

@@ -223,9 +223,9 @@ RT_ALWAYS_INLINE bool prism_lanes(const LanePrimitive *own, const RayLanes *rays
     IntervalLanes slab = slab_lanes(f[1], d[1], ends, &certain);
     asked &= ~doubles_mask_bits(certain & (slab.leave <= 0.0)); // all of it is behind
     certain &= (slab.enter > 0.0) & (slab.enter < slab.leave) & (slab.leave < 0x1p900);
-    unsigned told = asked & doubles_mask_bits(certain);
-    lanes->certain = told ? prism_lanes_enter(own->solid, f, d, slab.enter, slab.leave, told, &misses) : 0;
-    lanes->possible = asked & ~(told ? told & misses : 0);
+    unsigned decided = asked & doubles_mask_bits(certain);
+    lanes->certain = decided ? prism_lanes_enter(own->solid, f, d, slab.enter, slab.leave, decided, &misses) : 0;
+    lanes->possible = asked & ~(decided ? decided & misses : 0);
     lanes->leaves = 0;
     lanes->root = slab.enter;
     lanes->side = slab.enter_side;

@@ -2,7 +2,7 @@
 //
 // A ray is between the planes of the ends over a stretch, whose image in the outline's plane is a stretch, too. Where
 // that begins inside of the outline, and no piece is near there, the ray comes in at the end; where it begins outside
-// and comes to no piece, it passes. All others are not told: they are asked one by one.
+// and comes to no piece, it passes. All others are left undecided: they are asked one by one.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_PRISM_LANES_H

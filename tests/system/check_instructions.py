@@ -57,7 +57,7 @@ SAMPLED = [("one sphere", SPHERE, 4), ("one sphere", SPHERE, 16), ("one sphere",
 SAMPLED_SIZE = ("-W160", "-H120")
 # By samples a pixel; of the 300 spheres many are small, whose lists, looks and replicas come on top.
 ESTIMATE_BAR = {4: 1.027 if IS_CLANG else 1.02, 16: 1.02, 64: 1.02}
-SMALL_BAR = 1.05 if IS_CLANG else 1.025  # halves and replicas of pixels with strata are weighted, too
+SMALL_BAR = 1.05 if IS_CLANG else 1.02  # halves and replicas of pixels with strata are weighted, too
 # Of an adaptive run over a plain one without an error, as many samples in the mean: rounds look at all pixels, and the
 # pixels that are asked most have more in them than the mean one.
 ADAPTIVE_BAR = 2.1 if IS_CLANG else 1.85

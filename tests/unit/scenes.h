@@ -16,28 +16,28 @@
 // `folder` is where a scene's includes are; `number` counts from 0.
 typedef void (*SceneTest)(void *client, const char *folder, const char *path, size_t number);
 
-// Whether a file of that name, as it stands in quotes, is in `folder`.
-static bool scene_file_is_in(const char *folder, const char *quoted)
+static bool scene_file_is_in(const char *folder, const char *name)
 {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%.*s", folder, (int)strcspn(quoted, "\""), quoted);
+    char path[8192];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
     return access(path, R_OK) == 0;
 }
 
-// Whether a scene wants a file of POV-Ray's that is not on this machine: a font, or an include file that is neither beside
-// the scene nor in `folder`.
+// Whether a scene wants a file of POV-Ray's that is not on this machine: a font, or an include file that is neither
+// beside the scene nor in `folder`.
 static bool scene_lacks_files(const char *path, const char *folder)
 {
-    static const char include[] = "#include \"";
-    char line[4096], beside[4096];
+    char line[4096], beside[4096], name[256];
     FILE *text = fopen(path, "r");
     glob_t found;
     bool is_named = false;
-    snprintf(beside, sizeof beside, "%.*s", (int)(strrchr(path, '/') - path), path);
+    snprintf(beside, sizeof beside, "%s", path);
+    *strrchr(beside, '/') = '\0';
     while (text && !is_named && fgets(line, sizeof line, text)) {
-        const char *at = strstr(line, include);
-        const char *name = at ? at + sizeof include - 1 : NULL;
-        is_named = strstr(line, ".ttf") || (name && !scene_file_is_in(beside, name) && !scene_file_is_in(folder, name));
+        const char *at = strstr(line, "#include");
+        bool includes = at && sscanf(at, "#include \"%255[^\"]\"", name) == 1;
+        is_named =
+            strstr(line, ".ttf") || (includes && !scene_file_is_in(beside, name) && !scene_file_is_in(folder, name));
     }
     if (text) {
         fclose(text);
@@ -49,7 +49,8 @@ static bool scene_lacks_files(const char *path, const char *folder)
     return !is_there;
 }
 
-// Tries each, but for those that lack POV-Ray's files; that there are any is a case of its own. Returns how many there are.
+// Tries each, but for those that lack POV-Ray's files; that there are any is a case of its own. Returns how many there
+// are.
 __attribute__((unused)) static size_t scenes_try(const char *pattern, SceneTest test, void *client)
 {
     const char *top = getenv("top_srcdir");

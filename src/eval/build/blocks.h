@@ -22,7 +22,7 @@ struct ObjectState {
     uint32_t groups;                             // unions so far that say what their members are filled with
     bool may_lack_weights;                       // the map that is read belongs to `average`
     bool uses_uv;                                // something so far lies on surfaces
-    // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
+    // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and reported when it is used.
     bool is_deferring;
     const UnsupportedDesc *deferred; // the first; NULL: none
 };

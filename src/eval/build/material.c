@@ -168,7 +168,7 @@ static bool place_source(const Builder *builder, const PatternPart *part, Patter
         return true;
     }
     Builder apart = *builder;
-    apart.has_surface = false; // what a pattern is made of is not told where it lies
+    apart.has_surface = false; // what a pattern is made of is not given where it lies
     if (!add_pigment(&apart, part->pigment, &identity, &pigment, patterns)) {
         return false;
     }

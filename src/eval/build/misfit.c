@@ -253,7 +253,7 @@ static const char *lacks_text(const UnsupportedDesc *what, const SchemaUnsupport
                                          : "what it would change";
 }
 
-// Lenient: the picture is drawn without it, and says so. Told where it stands, since one use may lack several words.
+// Lenient: the picture is drawn without it, and a warning says so, reported where it stands, since one use may lack several words.
 static bool tell_left_out(Eval *ev, const UnsupportedDesc *what, const SchemaUnsupported *entry, Span use)
 {
     TextBuffer *list = ev->options.left_out;

@@ -309,7 +309,7 @@ bool pattern_picture_action(Block *block, const SchemaProperty *property, const 
     return pattern_read_amount(block);
 }
 
-// `exterior` and `interior`: what is told of a point, and times what.
+// `exterior` and `interior`: what is returned for a point, and times what.
 static bool read_told(Block *block, const SchemaProperty *property, Span span)
 {
     Pattern *pattern = &block->record->patterned.pattern;

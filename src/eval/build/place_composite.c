@@ -74,7 +74,7 @@ static bool bound_holds(Eval *ev, const Primitive *bound, SchemaKind kind, const
     return does;
 }
 
-// The shape of a bound, if it can be told whether it holds others.
+// The shape of a bound, if it can be decided whether it holds others.
 static bool bound_make(Eval *ev, const Clip *bound, const Transform *outer, Primitive *primitive)
 {
     const ObjectPart *common = bound->object;
@@ -113,12 +113,18 @@ static bool link_is_idle(Eval *ev, const ClipChain *chain, const Clip *clip, con
            (shape && bound_make(ev, clip, chain->outer, &bound) && primitive_contains(&bound, shape));
 }
 
+// The kinds whose bound POV-Ray keeps where they stand alone; of others it keeps that of members only (by experiment).
+static bool keeps_bounds(SchemaKind kind)
+{
+    return object_is_group(kind) || kind == KIND_CUBIC || kind == KIND_QUARTIC || kind == KIND_POLY ||
+           kind == KIND_TEXT;
+}
+
 const ClipChain *place_bounds(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, bool is_member,
                               const ClipChain *clips, ClipChain *link)
 {
     const ObjectPart *part = object;
-    bool is_kept = is_member || object_is_group(kind) || kind == KIND_CUBIC || kind == KIND_QUARTIC ||
-                   kind == KIND_POLY || kind == KIND_TEXT;
+    bool is_kept = is_member || keeps_bounds(kind);
     bool matters = false, is_flat = !object_is_group(kind) && (has_mesh(kind, object) || shape_is_flat(kind, object));
     if (is_flat) { // would only be slower
         return place_is_clipped(clips) ? clips : NULL;
@@ -374,9 +380,8 @@ static bool grow_clipped(Eval *ev, SchemaKind kind, const void *object, const Cl
     branch.parent = node;
     // Alone in a group it keeps what bounds it when it is read again.
     Branch around = branch;
-    bool is_kept = outer->parent != NODE_NONE || object_is_group(kind) || kind == KIND_CUBIC || kind == KIND_QUARTIC ||
-                   has_mesh(kind, object) || shape_is_flat(kind, object);
-    bool is_wrapped = !is_kept && has_bounds(clips);
+    bool has_own = keeps_bounds(kind) || has_mesh(kind, object) || shape_is_flat(kind, object);
+    bool is_wrapped = outer->parent == NODE_NONE && !has_own && has_bounds(clips);
     if (is_wrapped && !add_node(ev, NODE_INTERSECTION, false, &around, part->span, &branch.parent)) {
         return false;
     }

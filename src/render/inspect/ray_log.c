@@ -11,9 +11,9 @@
 #include "scene/primitive_reach.h"
 
 enum {
-    RAYS_MOST = 1000,   // that are told of
+    RAYS_MOST = 1000,   // that are listed
     SPHERES_FEW = 16,   // a scene with no more than these tells of each, also of those that are missed
-    SPHERES_MOST = 100, // that are told of for a ray
+    SPHERES_MOST = 100, // that are listed for a ray
     FEATURES = SHADE_ALL_FEATURES,
 };
 

@@ -83,8 +83,8 @@ typedef struct LoggedRay {
     Vec3 origin, direction;
     Rgb share;                         // what its light is multiplied with
     double weight;                     // what decides whether it is traced
-    size_t first_sphere, sphere_count; // those told of
-    size_t missed;                     // spheres that it misses and that are not told of
+    size_t first_sphere, sphere_count; // those listed
+    size_t missed;                     // spheres that it misses and that are not listed
     bool is_hit;
     const char *shape; // word for what is hit
     uint64_t source;   // of the shape
@@ -105,7 +105,7 @@ typedef struct RayLog {
     ARRAY(LoggedSphere) spheres;
     ARRAY(LoggedLayer) layers;
     ARRAY(LoggedLight) lights;
-    size_t more_rays; // not told of
+    size_t more_rays; // not listed
     Rgb colour;       // of the pixel, in the scene's working space
 } RayLog;
 

@@ -58,7 +58,7 @@ typedef struct TileAsking {
     void (*learn)(void *client, const void *answers, size_t lists);
     // False: it had to leave questions out.
     bool (*forget)(void *client);
-    // Answers others. Called by threads that trace. False: more than were told of do.
+    // Answers others. Called by threads that trace. False: more than were announced do.
     bool (*answer)(void *client, const void *questions, size_t count, void *answers);
 } TileAsking;
 

@@ -55,12 +55,8 @@ static inline bool round_counts_for_error(const Round *round, int left, int top)
            sample_hash_add((uint32_t)round->sampling->seed, y << 16 ^ x) % JUDGED_SHARE == 0;
 }
 
-// Where the picture's block ends, in the film, that holds a column or row of it.
-static inline int round_block_end(int at, int origin, int end)
-{
-    int next = at + JUDGED_BLOCK - (origin + at) % JUDGED_BLOCK;
-    return next < end ? next : end;
-}
+// The film's part of the next block of the picture that tells of the error, in rows, after {0}; false after the last.
+bool round_next_judged(const Round *round, Tile *block);
 
 // Whether a pixel is as far off as another set of samples would be. One that is made of corners is not, nor one of
 // which it is known that it has met all small shapes that are in it, since another set may not have; nor is any where
@@ -114,6 +110,7 @@ typedef struct ChosenPixel {
     uint32_t count; // samples that it gets
     bool starts;    // anew
     bool is_judged; // its samples are to tell of its error
+    bool has_open;  // small shapes that none of its samples has met
     uint32_t replica; // another set of points than the pixel's own; 0: that
 } ChosenPixel;
 
@@ -371,7 +368,7 @@ void predictor_keep_sorts(Predictor *predictor, const uint16_t *buckets, size_t 
 void predictor_see_starts(Predictor *predictor, const Allocation *allocation, const Round *round);
 
 typedef struct Forecast {
-    double samples;      // of the whole run; 0: it cannot be told
+    double samples;      // of the whole run; 0: unknown
     double pixels;       // each as often as it will take part in a round still to come
     double round_pixels; // that take part in the next
     double rounds;       // after that

@@ -85,15 +85,9 @@ static bool block_is_plain(const Draw *draw, Tile block)
 {
     const Share *share = draw->round->share;
     const Small *small = draw->round->small;
-    for (int y = block.top; y < block.bottom && (share || small); y++) {
-        size_t row = (size_t)y * (size_t)draw->round->film->width;
-        size_t left = row + (size_t)block.left, right = row + (size_t)block.right;
-        if ((share && share->first[right] != share->first[left]) ||
-            (small && small->first[right] != small->first[left])) {
-            return false;
-        }
-    }
-    return !draw->round->buckets;
+    int width = draw->round->film->width;
+    return !draw->round->buckets && !(share && tile_has_entries(share->first, width, block)) &&
+           !(small && tile_has_entries(small->first, width, block));
 }
 
 // What its halves say of a pixel of a plain block.
@@ -264,15 +258,8 @@ static void draw_block(Draw *draw, Tile block)
 
 static void each_block(Draw *draw, void (*block)(Draw *draw, Tile block))
 {
-    const Film *film = draw->round->film;
-    for (int top = 0, bottom; top < film->height; top = bottom) {
-        bottom = round_block_end(top, film->top, film->height);
-        for (int left = 0, right; left < film->width; left = right) {
-            right = round_block_end(left, film->left, film->width);
-            if (round_counts_for_error(draw->round, left, top)) {
-                block(draw, (Tile){left, top, right, bottom});
-            }
-        }
+    for (Tile judged = {0}; round_next_judged(draw->round, &judged);) {
+        block(draw, judged);
     }
 }
 

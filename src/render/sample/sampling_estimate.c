@@ -16,6 +16,29 @@ static const double RATIO_LEAST = 2.0, RATIO_MOST = 8.0;
 
 enum { STEPS_MOST = 2 };
 
+// Where the picture's block ends, in the film, that holds a column or row of it.
+static inline int block_end(int at, int origin, int end)
+{
+    int next = at + JUDGED_BLOCK - (origin + at) % JUDGED_BLOCK;
+    return next < end ? next : end;
+}
+
+bool round_next_judged(const Round *round, Tile *block)
+{
+    const Film *film = round->film;
+    int left = block->right, top = block->top;
+    for (; top < film->height; left = 0, top = block_end(top, film->top, film->height)) {
+        for (int right; left < film->width; left = right) {
+            right = block_end(left, film->left, film->width);
+            if (round_counts_for_error(round, left, top)) {
+                *block = (Tile){left, top, right, block_end(top, film->top, film->height)};
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // Whether halves complete each other; if not, they are independent.
 static bool has_halves(const Round *round)
 {
@@ -125,14 +148,8 @@ static void add_pixels(LevelSums *sums, const Film *film, Tile part)
 static void add_alike(Estimate *estimate, const Film *film, const Round *round)
 {
     LevelSums sums = {0};
-    for (int top = 0, bottom; top < film->height; top = bottom) {
-        bottom = round_block_end(top, film->top, film->height);
-        for (int left = 0, right; left < film->width; left = right) {
-            right = round_block_end(left, film->left, film->width);
-            if (round_counts_for_error(round, left, top)) {
-                add_pixels(&sums, film, (Tile){left, top, right, bottom});
-            }
-        }
+    for (Tile block = {0}; round_next_judged(round, &block);) {
+        add_pixels(&sums, film, block);
     }
     sums.squares = sums.outer_squares;
     sums.outer_now = sums.outer;
@@ -212,14 +229,9 @@ static void tell(Estimate *estimate, const Film *film, const Round *round, Sampl
 
 void estimate_begin(Estimate *estimate, const Round *round)
 {
-    const Film *film = round->film;
     estimate->judged = 0.0;
-    for (int top = 0, bottom; top < film->height; top = bottom) {
-        bottom = round_block_end(top, film->top, film->height);
-        for (int left = 0, right; left < film->width; left = right) {
-            right = round_block_end(left, film->left, film->width);
-            estimate->judged += round_counts_for_error(round, left, top) ? (double)(right - left) * (bottom - top) : 0.0;
-        }
+    for (Tile block = {0}; round_next_judged(round, &block);) {
+        estimate->judged += (double)(block.right - block.left) * (block.bottom - block.top);
     }
 }
 

@@ -3,7 +3,7 @@
 // Pixels go into classes by the number of their samples and by priority, and the coming rounds are played on these, in
 // the order in which pixels would be chosen. Pixels that start become what those became that were chosen by chance for
 // the corner pass; errors of others fall as has been seen, or is expected, at such numbers of samples, and pixels of a
-// class become unlike each other. What is predicted is what will be told, not what will be true. docs/sampling.md,
+// class become unlike each other. What is predicted is what will be reported, not what will be true. docs/sampling.md,
 // "What is left".
 //
 // SPDX-License-Identifier: MIT
@@ -130,7 +130,7 @@ static double next_power(double power, double edges)
     return -log2(edge - (edge - smooth) * part);
 }
 
-// The logarithms of the ratios that are expected to be told. What was seen of these counts as far as it is sure: by the
+// The logarithms of the ratios that are expected to be reported. What was seen of these counts as far as it is sure: by the
 // spread of what it was seen from.
 static void play_powers(Play *play, const Estimate *estimate, const Round *round)
 {

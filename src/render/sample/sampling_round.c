@@ -176,6 +176,8 @@ static ChosenPixel *block_choose(const Round *round, Tile block, ChosenPixel *ch
     bool has_estimate = !round->sampling->has_no_estimate;
     bool is_whole = film->left % JUDGED_BLOCK == 0 && film->top % JUDGED_BLOCK == 0; // one block of the picture
     bool is_judged = has_estimate && round_counts_for_error(round, block.left, block.top);
+    bool has_small = round->small && tile_has_entries(round->small->first, film->width, block);
+    ChosenPixel *first = chosen;
     for (int row = 0; row < ROWS; row++) {
         int y = block.top + row % QUARTER + row / (2 * QUARTER) * QUARTER;
         int left = block.left + row / QUARTER % 2 * QUARTER;
@@ -186,9 +188,17 @@ static ChosenPixel *block_choose(const Round *round, Tile block, ChosenPixel *ch
             if (count > 0) {
                 uint32_t had = film->records[begin + (size_t)x].count;
                 is_judged = is_whole ? is_judged : has_estimate && round_counts_for_error(round, x, y);
-                *chosen++ = (ChosenPixel){x, y, begin + (size_t)x, count, round_starts(round, had), is_judged, 0};
+                *chosen++ = (ChosenPixel){.x = x,
+                                          .y = y,
+                                          .index = begin + (size_t)x,
+                                          .count = count,
+                                          .starts = round_starts(round, had),
+                                          .is_judged = is_judged};
             }
         }
+    }
+    for (ChosenPixel *pixel = first; has_small && pixel < chosen; pixel++) {
+        pixel->has_open = small_open(round->small, pixel->index) > 0;
     }
     return chosen;
 }
@@ -228,9 +238,7 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
         *sums = (SampleSums){.squares = rgb_grey(0.0),
                              .shares = share_begin(round->share, pixel->index, pixel->starts,
                                                    &scratch->round.shares[pixel - chosen])};
-        if (round->small) {
-            batch.meets = (batch.meets && batch.count > 0) || small_open(round->small, pixel->index) > 0;
-        }
+        batch.meets = (batch.meets && batch.count > 0) || pixel->has_open;
         pixel_add(round, &batch, pixel, sums, counted);
     }
     batch_flush(round, &batch, counted);

@@ -42,7 +42,7 @@ typedef struct Sampling {
     double sample_seconds; // of a sample, as the last round had it
     double round_samples;  // of this round, or of a slice of it
     double sliced_samples; // of the slices before
-    double all_samples;    // of the run, as far as can be told; 0: not
+    double all_samples;    // of the run, as far as is known; 0: unknown
     double round_pixels;   // that take part, if anybody asks
     double round_seconds;  // predicted of this round
     double later_seconds;  // and of those after it

@@ -342,25 +342,34 @@ static int groups_join(Group *groups, int count, double samples)
     return count;
 }
 
-// The samples of a pixel by group, of each part of them.
+// Samples of a group: how many, and their sum.
+typedef struct GroupPart {
+    double taken;
+    Rgb sum;
+} GroupPart;
+
+static inline void group_part_add(GroupPart *part, double taken, Rgb sum)
+{
+    part->taken += taken;
+    part->sum = rgb_add(part->sum, sum);
+}
+
+// The samples of a pixel by group, of each part of them; PART_BEFORE where it has such.
 typedef struct GroupSums {
     int count;
     Group groups[STRATA_MOST];
-    double taken[PARTS][STRATA_MOST];
-    Rgb sums[PARTS][STRATA_MOST];
+    GroupPart parts[PARTS][STRATA_MOST];
 } GroupSums;
 
-static void stratum_add(const ShareSums *sums, int stratum, int group, bool has_before, GroupSums *by_group)
+static inline void stratum_add(const ShareSums *sums, int stratum, int group, bool has_before, GroupSums *by_group)
 {
     for (int half = 0; half < 2; half++) {
-        by_group->taken[half][group] += sums->taken[half][stratum];
-        by_group->sums[half][group] = rgb_add(by_group->sums[half][group], sums->sum[half][stratum]);
+        group_part_add(&by_group->parts[half][group], sums->taken[half][stratum], sums->sum[half][stratum]);
     }
     if (has_before) {
         const ShareStratum *own = &sums->strata[stratum];
-        Rgb mean = rgb(own->mean[0], own->mean[1], own->mean[2]);
-        by_group->taken[PART_BEFORE][group] += own->taken;
-        by_group->sums[PART_BEFORE][group] = rgb_add_scaled(by_group->sums[PART_BEFORE][group], own->taken, mean);
+        group_part_add(&by_group->parts[PART_BEFORE][group], own->taken,
+                       rgb_scale(own->taken, rgb(own->mean[0], own->mean[1], own->mean[2])));
     }
 }
 
@@ -375,8 +384,7 @@ static void group_sums(const ShareSums *sums, bool has_before, GroupSums *by_gro
     by_group->count = groups_join(by_group->groups, sums->count, samples);
     for (int group = 0; group < by_group->count; group++) {
         for (int part = 0; part < PARTS; part++) {
-            by_group->taken[part][group] = 0.0;
-            by_group->sums[part][group] = rgb_grey(0.0);
+            by_group->parts[part][group] = (GroupPart){0.0, rgb_grey(0.0)};
         }
         for (uint32_t left = by_group->groups[group].strata; left; left &= left - 1) {
             stratum_add(sums, __builtin_ctz(left), group, has_before, by_group);
@@ -384,62 +392,53 @@ static void group_sums(const ShareSums *sums, bool has_before, GroupSums *by_gro
     }
 }
 
-// The mean of some parts of a pixel's samples where all strata are one.
-static Rgb mean_of_all(const GroupSums *by_group, int first, int last, Rgb *between)
+// Of some parts, from `first` to `last`.
+static inline GroupPart part_of(const GroupSums *by_group, int first, int last, int group)
 {
-    double taken = by_group->taken[first][0];
-    Rgb sum = by_group->sums[first][0];
-    for (int part = first + 1; part <= last; part++) {
-        taken += by_group->taken[part][0];
-        sum = rgb_add(sum, by_group->sums[part][0]);
+    GroupPart part = by_group->parts[first][group];
+    for (int i = first + 1; i <= last; i++) {
+        group_part_add(&part, by_group->parts[i][group].taken, by_group->parts[i][group].sum);
     }
-    Rgb own = rgb_scale(1.0 / taken, sum), mean = rgb_scale(by_group->groups[0].area, own);
+    return part;
+}
+
+// The mean where a group has no sample: all are one.
+static Rgb plain_mean(const GroupSums *by_group, int first, int last, Rgb *between)
+{
+    GroupPart all = {0.0, rgb_grey(0.0)};
+    for (int i = 0; i < by_group->count; i++) {
+        GroupPart part = part_of(by_group, first, last, i);
+        group_part_add(&all, part.taken, part.sum);
+    }
+    Rgb mean = rgb_scale(1.0 / all.taken, all.sum);
     if (between) {
-        *between = rgb_mul(own, own);
+        *between = rgb_mul(mean, mean);
     }
     return mean;
 }
 
 // The mean of some parts of a pixel's samples, of which there is one at least, from `first` to `last`. Where a group
-// has none all are one. `between`: NULL, or where the mean square of the groups' means goes.
-static Rgb mean_of(const GroupSums *by_group, int first, int last, Rgb *between)
+// has none all are one. `between`: NULL, or where the mean square of the groups' means goes. Inline: it is what strata
+// cost, and each caller's parts make a copy of their own.
+RT_ALWAYS_INLINE Rgb mean_of(const GroupSums *by_group, int first, int last, Rgb *between)
 {
-    if (by_group->count == 1) {
-        return mean_of_all(by_group, first, last, between);
-    }
     double all = 0.0, taken[STRATA_MOST];
-    Rgb sums[STRATA_MOST], mean = rgb_grey(0.0);
-    bool has_all = true;
+    Rgb own[STRATA_MOST], mean = rgb_grey(0.0);
     for (int i = 0; i < by_group->count; i++) {
-        taken[i] = 0.0;
-        sums[i] = rgb_grey(0.0);
-        for (int part = first; part <= last; part++) {
-            taken[i] += by_group->taken[part][i];
-            sums[i] = rgb_add(sums[i], by_group->sums[part][i]);
+        GroupPart part = part_of(by_group, first, last, i);
+        if (!(part.taken > 0.0)) {
+            return plain_mean(by_group, first, last, between);
         }
-        all += taken[i];
-        has_all = has_all && taken[i] > 0.0;
-    }
-    for (int i = 0; !has_all && i < by_group->count; i++) {
-        mean = rgb_add(mean, sums[i]);
-    }
-    if (!has_all) {
-        mean = rgb_scale(1.0 / all, mean);
-        if (between) {
-            *between = rgb_mul(mean, mean);
-        }
-        return mean;
-    }
-    Rgb squares = rgb_grey(0.0);
-    for (int i = 0; i < by_group->count; i++) {
-        Rgb own = rgb_scale(1.0 / taken[i], sums[i]);
-        mean = rgb_add_scaled(mean, by_group->groups[i].area, own);
-        if (between) {
-            squares = rgb_add_scaled(squares, taken[i] / all, rgb_mul(own, own));
-        }
+        own[i] = rgb_scale(1.0 / part.taken, part.sum);
+        taken[i] = part.taken;
+        all += part.taken;
+        mean = rgb_add_scaled(mean, by_group->groups[i].area, own[i]);
     }
     if (between) {
-        *between = squares;
+        *between = rgb_grey(0.0);
+        for (int i = 0; i < by_group->count; i++) {
+            *between = rgb_add_scaled(*between, taken[i] / all, rgb_mul(own[i], own[i]));
+        }
     }
     return mean;
 }
@@ -551,35 +550,38 @@ static inline void contrast_renew(const Round *round, size_t pixel, ShareContras
     }
 }
 
-// Adds up the contrasts of the pixels that tell of the error.
-static void contrasts_add(const Round *round, double *square, double *weight)
+// From now on only those of the pixels are known that tell of the error.
+static void pixels_keep_judged(const Round *round, Share *share)
 {
-    const Share *share = round->share;
-    const Film *film = round->film;
-    uint32_t width = (uint32_t)film->width, end = 0;
-    bool counts = true;
-    for (uint32_t i = 0; i < share->pixel_count; i++) {
-        uint32_t pixel = share->pixels[i];
-        if (round->counts_some && pixel >= end) { // of another block than the last
-            uint32_t x = pixel % width;
-            counts = round_counts_for_error(round, (int)x, (int)(pixel / width));
-            end = pixel - x + (uint32_t)round_block_end((int)x, film->left, film->width);
-        }
-        if (counts) {
-            ShareContrast *contrast = &share->contrasts[share->first[pixel]];
-            contrast_renew(round, pixel, contrast);
-            *square += (double)contrast->square;
-            *weight += (double)contrast->weight;
+    size_t width = (size_t)round->film->width;
+    share->pixel_count = 0;
+    for (Tile block = {0}; round_next_judged(round, &block);) {
+        bool has_any = tile_has_entries(share->first, round->film->width, block);
+        for (int y = block.top; has_any && y < block.bottom; y++) {
+            size_t row = (size_t)y * width;
+            for (size_t pixel = row + (size_t)block.left; pixel < row + (size_t)block.right; pixel++) {
+                share->pixels[share->pixel_count] = (uint32_t)pixel;
+                share->pixel_count += share_has(share, pixel);
+            }
         }
     }
 }
 
 void share_set_contrasts(const Round *round)
 {
-    const Share *share = round->share;
+    Share *share = round->share;
     uint32_t width = (uint32_t)round->film->width;
     double square = 0.0, weight = 0.0;
-    contrasts_add(round, &square, &weight);
+    if (round->counts_some) {
+        pixels_keep_judged(round, share);
+    }
+    for (uint32_t i = 0; i < share->pixel_count; i++) {
+        uint32_t pixel = share->pixels[i];
+        ShareContrast *contrast = &share->contrasts[share->first[pixel]];
+        contrast_renew(round, pixel, contrast);
+        square += (double)contrast->square;
+        weight += (double)contrast->weight;
+    }
     double of_all = weight > 0.0 ? square / weight : 0.0;
     for (uint32_t i = 0; i < share->pixel_count; i++) {
         uint32_t pixel = share->pixels[i];

@@ -36,7 +36,7 @@ typedef struct ShareContrast {
 // What is known of a film.
 typedef struct Share {
     uint32_t *first; // of each pixel's strata; one more for the end
-    uint32_t *pixels; // that have any, from the first on
+    uint32_t *pixels; // that have any; of a picture of which some tell of the error, at last those of them that do
     uint32_t pixel_count;
     ShareStratum *strata;
     size_t capacity;

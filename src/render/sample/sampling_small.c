@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/cleared.h"
+#include "base/pages.h"
 #include "render/records/camera.h"
 #include "scene/opaque.h"
 
@@ -117,11 +118,15 @@ static bool footprint_make(const View *view, Footprint *at)
     double ahead = vec3_dot(view->ahead, offset), depth = is_flat ? 1.0 : ahead;
     const double pi = 3.14159265358979323846;
     bool is_spot = shape_kind(at->extent.shape) == SMALL_IS_SPOT;
-    double wide = small_is_lamp(view->small->prepared, &at->extent) ? LAMP_WIDTH : SMALL_WIDTH;
-    double size = is_spot ? SPOT_LENGTH : wide, most = 0.5 * size * depth;
     bool is_sphere = at->extent.is_ball && shape_kind(at->extent.shape) == SHAPE_SPHERE;
-    if (!(ahead > 0.0) || (is_sphere && at->extent.axes[0].x * view->least_slope * film->whole_width > most)) {
+    double least = is_sphere ? 2.0 * at->extent.axes[0].x * view->least_slope * film->whole_width : 0.0;
+    if (!(ahead > 0.0) || least > LAMP_WIDTH * depth) {
         return false; // that most are not small costs little
+    }
+    double wide = small_is_lamp(view->small->prepared, &at->extent) ? LAMP_WIDTH : SMALL_WIDTH;
+    double size = is_spot ? SPOT_LENGTH : wide, most = size * depth;
+    if (least > most) {
+        return false;
     }
     double u = vec3_dot(view->across, offset) / depth, v = vec3_dot(view->down, offset) / depth;
     Vec3 to_x = is_flat ? view->across : vec3_add_scaled(view->across, -u, view->ahead);
@@ -233,23 +238,46 @@ static double fill_of(const View *view, const Footprint *at)
     return (crossed + 0.5) / (FILL_ROOT * FILL_ROOT + 0.5);
 }
 
-// The share of a pixel that the ellipse has: of strips along its rows, which end at even steps of the angle along it,
-// what is between the pixel's sides, as the filter weights it.
-static double share_of(const View *view, const Footprint *at, int x, int y)
+// What is in a row of pixels of strips of the ellipse, which end at even steps of the angle along it.
+typedef struct RowStrips {
+    int y, count;
+    double left[STRIPS], right[STRIPS], height[STRIPS];
+    double row[STRIPS]; // their middles, down the picture
+} RowStrips;
+
+static void row_strips(const View *view, const Footprint *at, int y, RowStrips *strips)
 {
-    double radius = filter_radius(view->small->filter), half = sqrt(at->wide_yy), sum = 0.0;
+    double radius = filter_radius(view->small->filter), half = sqrt(at->wide_yy);
     double slope = at->wide_xy / at->wide_yy, across = sqrt(fmax(at->wide_xx - slope * at->wide_xy, 0.0));
-    bool is_box = view->small->filter == FILTER_BOX;
+    strips->y = y;
+    strips->count = 0;
     for (int i = 0; i < STRIPS; i++) {
         double top = at->y + half * view->ends[i], bottom = at->y + half * view->ends[i + 1];
         top = top > y - radius ? top : y - radius;
         bottom = bottom < y + radius ? bottom : y + radius;
-        double row = 0.5 * (top + bottom), middle = at->x + slope * (row - at->y), chord = across * view->chords[i];
-        double left = middle - chord > x - radius ? middle - chord : x - radius;
-        double right = middle + chord < x + radius ? middle + chord : x + radius;
-        if (bottom > top && right > left) {
-            sum += (bottom - top) * (right - left) *
-                   (is_box ? 1.0 : small_weight(view->small, 0.5 * (left + right) - x, row - y));
+        if (bottom > top) {
+            double row = 0.5 * (top + bottom), middle = at->x + slope * (row - at->y), chord = across * view->chords[i];
+            int next = strips->count++;
+            strips->left[next] = middle - chord;
+            strips->right[next] = middle + chord;
+            strips->height[next] = bottom - top;
+            strips->row[next] = row;
+        }
+    }
+}
+
+// The share of a pixel of the row that the ellipse has: what of its strips is between the pixel's sides, as the filter
+// weights it.
+static double share_of(const View *view, const Footprint *at, const RowStrips *strips, int x)
+{
+    double radius = filter_radius(view->small->filter), sum = 0.0;
+    bool is_box = view->small->filter == FILTER_BOX;
+    for (int i = 0; i < strips->count; i++) {
+        double left = strips->left[i] > x - radius ? strips->left[i] : x - radius;
+        double right = strips->right[i] < x + radius ? strips->right[i] : x + radius;
+        if (right > left) {
+            sum += strips->height[i] * (right - left) *
+                   (is_box ? 1.0 : small_weight(view->small, 0.5 * (left + right) - x, strips->row[i] - strips->y));
         }
     }
     double wide = ellipse_area(at->wide_xx, at->wide_xy, at->wide_yy);
@@ -287,9 +315,11 @@ static void footprint_put(const View *view, const Footprint *at, Small *small)
     int left = (int)fmax(ceil(at->x - across), 0.0), right = (int)fmin(floor(at->x + across), film->width - 1.0);
     int top = (int)fmax(ceil(at->y - down), 0.0), bottom = (int)fmin(floor(at->y + down), film->height - 1.0);
     for (int y = top; y <= bottom; y++) {
+        RowStrips strips;
+        row_strips(view, at, y, &strips);
         for (int x = left; x <= right; x++) {
             size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-            double share = share_of(view, at, x, y);
+            double share = share_of(view, at, &strips, x);
             if (!((float)share > 0.0f)) {
                 continue;
             }
@@ -331,10 +361,10 @@ static bool lists_begin(Small *small)
     size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
     small->words = (extent_count(small->prepared->geometry) + (size_t)small->spot_count + 63) / 64;
     small->norm = filter_norm(small->filter);
-    small->first = cleared_new(pixels + 1, sizeof *small->first);
     small->open = cleared_new(pixels, sizeof *small->open);
-    small->pixels = cleared_new(pixels + 1, sizeof *small->pixels);
-    small->law = cleared_new(pixels, sizeof *small->law);
+    small->first = pages_grow(NULL, 0, (pixels + 1) * sizeof *small->first);
+    small->pixels = pages_grow(NULL, 0, (pixels + 1) * sizeof *small->pixels);
+    small->law = pages_grow(NULL, 0, pixels * sizeof *small->law);
     small->met = calloc(3 * small->words, sizeof *small->met);
     small->seen = small->met ? small->met + small->words : NULL;
     small->counted = small->met ? small->seen + small->words : NULL;
@@ -364,23 +394,42 @@ static bool lists_pass(const View *view, Small *small)
     return true;
 }
 
+// Where each pixel's entries are. Most have none, and go by eights.
+static void firsts_set(Small *small, size_t pixels)
+{
+    uint32_t sum = 0, count = 0, *first = small->first; // a film's pixels have SMALL_MOST entries each at most
+    const uint8_t *open = small->open;
+    for (size_t i = 0; i < pixels;) {
+        uint64_t eight = 1;
+        if (i + sizeof eight <= pixels) {
+            memcpy(&eight, &open[i], sizeof eight);
+        }
+        if (eight == 0) {
+            for (size_t j = 0; j < sizeof eight; j++) {
+                first[i + j] = sum;
+            }
+            i += sizeof eight;
+        } else {
+            first[i] = sum;
+            sum += open[i];
+            small->pixels[count] = (uint32_t)i;
+            count += open[i++] > 0;
+        }
+    }
+    first[pixels] = sum;
+    small->pixel_count = count;
+}
+
 // From counts to empty lists.
 static bool lists_open(Small *small)
 {
     size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
-    uint32_t sum = 0; // of a film's pixels, with SMALL_MOST entries each at most
-    for (uint32_t i = 0; i < pixels; i++) {
-        small->first[i] = sum;
-        sum += small->open[i];
-        small->pixels[small->pixel_count] = i;
-        small->pixel_count += small->open[i] > 0;
-    }
-    small->first[pixels] = sum;
+    firsts_set(small, pixels);
     for (uint32_t k = 0; k < small->pixel_count; k++) {
         small->open[small->pixels[k]] = 0;
         small->law[small->pixels[k]][0] = small->law[small->pixels[k]][1] = 0.0f;
     }
-    small->entries = malloc((sum + (size_t)1) * sizeof *small->entries);
+    small->entries = malloc((small->first[pixels] + (size_t)1) * sizeof *small->entries);
     return small->entries != NULL;
 }
 

@@ -214,15 +214,9 @@ void sampling_find_missed(Sampling *s)
 {
     const Film *film = s->film;
     Range range = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}, UINT32_MAX};
-    for (int top = 0, bottom; top < film->height; top = bottom) {
-        bottom = round_block_end(top, film->top, film->height);
-        for (int left = 0, right; left < film->width; left = right) {
-            right = round_block_end(left, film->left, film->width);
-            if (round_counts_for_error(&s->round, left, top)) {
-                // Where some pixels stand for all, one row of a block does for it.
-                range_add(&range, film, (Tile){left, top, right, bottom}, s->round.counts_some ? JUDGED_BLOCK : 1);
-            }
-        }
+    for (Tile block = {0}; round_next_judged(&s->round, &block);) {
+        // Where some pixels stand for all, one row of a block does for it.
+        range_add(&range, film, block, s->round.counts_some ? JUDGED_BLOCK : 1);
     }
     double contrast = 0.0;
     for (int c = 0; c < 3; c++) {

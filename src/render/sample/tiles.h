@@ -36,6 +36,17 @@ static inline Tile tile_block(Tile tile, int left, int top)
 // ones again. Returns those of the block, a bit for each. The lens is left as it is.
 uint64_t block_places(const Film *film, Tile block, double aside, KernelPlaces *places);
 
+// Whether a pixel of a tile has entries of a list by pixels: where in it each pixel's are, in `first`, and the next one's.
+static inline bool tile_has_entries(const uint32_t *first, int width, Tile tile)
+{
+    bool has_entries = false;
+    for (int y = tile.top; y < tile.bottom && !has_entries; y++) {
+        const uint32_t *row = &first[(size_t)y * (size_t)width];
+        has_entries = row[tile.left] < row[tile.right];
+    }
+    return has_entries;
+}
+
 void statistics_add(RenderStatistics *sum, const RenderStatistics *more);
 
 // Runs on options->threads threads, or as many of them as memory is found for, and as options->share says; adds to the

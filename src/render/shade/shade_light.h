@@ -184,7 +184,7 @@ RT_ALWAYS_INLINE bool shade_even_share(const Prepared *p, unsigned features, con
     return true;
 }
 
-// The share of light along a shadow ray where all that it crosses is told at once, and is even; false elsewhere.
+// The share of light along a shadow ray where all that it crosses is found at once, and is even; false elsewhere.
 RT_ALWAYS_INLINE bool shade_even_light(const Prepared *p, unsigned features, Ray ray, RayStart start, double t_max,
                                        Rgb *share)
 {

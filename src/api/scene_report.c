@@ -1,7 +1,7 @@
-// What is told of a scene only when all its spheres are looked at, where each rank has a part of them.
+// What is reported of a scene only when all its spheres are looked at, where each rank has a part of them.
 //
-// Each rank picks those of its spheres that something may be told of: lost beside their coordinates, equal to another,
-// around the camera. Rank 0 gets these and tells by what looks over a whole scene, so the messages are those of one
+// Each rank picks those of its spheres that something may be reported of: lost beside their coordinates, equal to another,
+// around the camera. Rank 0 gets these and reports by what looks over a whole scene, so the messages are those of one
 // process.
 //
 // SPDX-License-Identifier: MIT
@@ -17,14 +17,14 @@
 enum { WINDOW = 1 << 20 }; // hashes of all ranks that are compared at a time, about
 
 // Of a sphere, without padding.
-typedef struct ToldSphere {
+typedef struct OddSphere {
     Vec3 centre;
     double radius;
     Material material;
     uint64_t order, source;
-} ToldSphere;
+} OddSphere;
 
-typedef ARRAY(ToldSphere) ToldSpheres;
+typedef ARRAY(OddSphere) OddSpheres;
 
 // Lists of all ranks on end; to be freed. Ends all ranks where there is no memory for them.
 static void *gather_lists(rt_session *session, const void *own, size_t count, size_t size, size_t *total)
@@ -51,23 +51,23 @@ static void *gather_lists(rt_session *session, const void *own, size_t count, si
     return all;
 }
 
-static bool pick(const Scene *scene, ToldSpheres *told, size_t i)
+static bool pick(const Scene *scene, OddSpheres *odd, size_t i)
 {
     const Sphere *sphere = &scene->spheres.items[i];
-    ToldSphere one = {sphere->centre, sphere->radius, scene->materials.items[sphere->material],
+    OddSphere one = {sphere->centre, sphere->radius, scene->materials.items[sphere->material],
                       scene_sphere_order(scene, i), scene_sphere_source(scene, i)};
-    return ARRAY_PUSH(told, one);
+    return ARRAY_PUSH(odd, one);
 }
 
 // ---- spheres that are lost
 
-static bool pick_lost(const Scene *scene, ToldSpheres *told)
+static bool pick_lost(const Scene *scene, OddSpheres *odd)
 {
-    bool is_whole = true, may_tell = scene_range_tells(scene, &scene->survey, &scene->survey);
-    for (size_t i = 0; may_tell && is_whole && i < scene->spheres.count; i++) {
+    bool is_whole = true, may_report = scene_range_reports(scene, &scene->survey, &scene->survey);
+    for (size_t i = 0; may_report && is_whole && i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         SphereSurvey one = {sphere->radius, sphere->radius, vec3_max_abs(sphere->centre), true};
-        is_whole = !scene_range_tells(scene, &scene->survey, &one) || pick(scene, told, i);
+        is_whole = !scene_range_reports(scene, &scene->survey, &one) || pick(scene, odd, i);
     }
     return is_whole;
 }
@@ -126,7 +126,7 @@ static bool window_fill(Window *window, const Scene *scene)
     return is_whole;
 }
 
-static bool pick_equal(rt_session *session, ToldSpheres *told)
+static bool pick_equal(rt_session *session, OddSpheres *odd)
 {
     const Scene *scene = &session->scene;
     Window window = {.count = scene->shape_count / WINDOW + 1};
@@ -139,7 +139,7 @@ static bool pick_equal(rt_session *session, ToldSpheres *told)
         size_t doubled = keep_doubled(all, total);
         for (size_t i = 0; doubled > 0 && i < window.hashes.count; i++) {
             if (bsearch(&window.hashes.items[i], all, doubled, sizeof *all, hash_compare)) {
-                is_whole = pick(scene, told, window.spheres.items[i]) && is_whole;
+                is_whole = pick(scene, odd, window.spheres.items[i]) && is_whole;
             }
         }
         free(all);
@@ -156,27 +156,27 @@ static bool holds(Vec3 centre, double radius, Vec3 point)
     return vec3_length(vec3_sub(point, centre)) < radius;
 }
 
-// Spheres around the camera; then, of what is in one of these, as much as tells that there is something.
-static bool pick_around(rt_session *session, ToldSpheres *told)
+// Spheres around the camera; then, of what is in one of these, as much as shows that there is something.
+static bool pick_around(rt_session *session, OddSpheres *odd)
 {
     enum { ENOUGH = 2 };
     const Scene *scene = &session->scene;
-    ToldSpheres own = {0};
+    OddSpheres own = {0};
     size_t total, seen = scene_first_seen(scene);
-    bool is_whole = seen == scene->spheres.count || pick(scene, told, seen);
+    bool is_whole = seen == scene->spheres.count || pick(scene, odd, seen);
     for (size_t i = 0; is_whole && i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         if (holds(sphere->centre, sphere->radius, scene->camera.location) &&
             scene_material_is_opaque(scene, sphere->material)) {
-            is_whole = pick(scene, &own, i) && pick(scene, told, i);
+            is_whole = pick(scene, &own, i) && pick(scene, odd, i);
         }
     }
-    ToldSphere *all = gather_lists(session, own.items, own.count, sizeof *all, &total);
+    OddSphere *all = gather_lists(session, own.items, own.count, sizeof *all, &total);
     for (size_t outer = 0; outer < total; outer++) {
         int found = 0;
         for (size_t i = 0; is_whole && found < ENOUGH && i < scene->spheres.count; i++) {
             if (holds(all[outer].centre, all[outer].radius, scene->spheres.items[i].centre)) {
-                is_whole = pick(scene, told, i);
+                is_whole = pick(scene, odd, i);
                 found++;
             }
         }
@@ -186,11 +186,11 @@ static bool pick_around(rt_session *session, ToldSpheres *told)
     return is_whole;
 }
 
-// ---- telling
+// ---- reporting
 
-static int told_compare(const void *a, const void *b)
+static int odd_compare(const void *a, const void *b)
 {
-    uint64_t x = ((const ToldSphere *)a)->order, y = ((const ToldSphere *)b)->order;
+    uint64_t x = ((const OddSphere *)a)->order, y = ((const OddSphere *)b)->order;
     return (x > y) - (x < y);
 }
 
@@ -201,20 +201,20 @@ static bool add_material(Scene *scene, const Material *material, MaterialIndex *
 }
 
 // Of the spheres, each of which may be there more than once, and of all that each rank has.
-static bool told_scene(Scene *scene, const Scene *whole, ToldSphere *told, size_t count)
+static bool odd_scene(Scene *scene, const Scene *whole, OddSphere *odd, size_t count)
 {
     bool is_whole = true;
-    qsort(told, count, sizeof *told, told_compare);
+    qsort(odd, count, sizeof *odd, odd_compare);
     for (size_t i = 0; is_whole && i < whole->planes.count; i++) {
         Plane plane = whole->planes.items[i];
         const Material *material = &whole->materials.items[plane.material];
         is_whole = add_material(scene, material, &plane.material) && ARRAY_PUSH(&scene->planes, plane);
     }
     for (size_t i = 0; is_whole && i < count; i++) {
-        const ToldSphere *from = &told[i];
+        const OddSphere *from = &odd[i];
         Sphere sphere = {from->centre, from->radius, 0, (uint32_t)from->source};
         SphereRun run = {(uint32_t)scene->spheres.count, (uint32_t)from->order, (uint32_t)(from->source >> 32)};
-        if (i == 0 || from->order != told[i - 1].order) {
+        if (i == 0 || from->order != odd[i - 1].order) {
             is_whole = add_material(scene, &from->material, &sphere.material) && ARRAY_PUSH(&scene->sphere_runs, run) &&
                        ARRAY_PUSH(&scene->spheres, sphere);
         }
@@ -222,7 +222,7 @@ static bool told_scene(Scene *scene, const Scene *whole, ToldSphere *told, size_
     return is_whole;
 }
 
-static bool tell(rt_session *session, ToldSphere *told, size_t count)
+static bool report(rt_session *session, OddSphere *odd, size_t count)
 {
     Scene scene = session->scene; // all but these lists stays the whole scene's
     scene.planes.items = NULL;
@@ -231,7 +231,7 @@ static bool tell(rt_session *session, ToldSphere *told, size_t count)
     scene.sphere_runs.items = NULL;
     scene.planes.count = scene.materials.count = scene.spheres.count = scene.sphere_runs.count = 0;
     scene.planes.capacity = scene.materials.capacity = scene.spheres.capacity = scene.sphere_runs.capacity = 0;
-    bool is_whole = told_scene(&scene, &session->scene, told, count);
+    bool is_whole = odd_scene(&scene, &session->scene, odd, count);
     if (is_whole) {
         scene_warn_of_range(&scene, &session->scene.survey, &session->diags);
         is_whole = scene_warn_of_coincident(&scene, &session->diags, 1);
@@ -244,17 +244,17 @@ static bool tell(rt_session *session, ToldSphere *told, size_t count)
     return is_whole;
 }
 
-bool session_scene_tell(rt_session *session)
+bool session_scene_report(rt_session *session)
 {
-    ToldSpheres told = {0};
+    OddSpheres odd = {0};
     size_t count;
-    bool is_whole = pick_lost(&session->scene, &told);
-    is_whole = pick_equal(session, &told) && is_whole;
-    is_whole = pick_around(session, &told) && is_whole;
-    ToldSphere *all = gather_lists(session, told.items, told.count, sizeof *all, &count);
-    ARRAY_FREE(&told);
+    bool is_whole = pick_lost(&session->scene, &odd);
+    is_whole = pick_equal(session, &odd) && is_whole;
+    is_whole = pick_around(session, &odd) && is_whole;
+    OddSphere *all = gather_lists(session, odd.items, odd.count, sizeof *all, &count);
+    ARRAY_FREE(&odd);
     if (is_whole && session->sharing.ranks.rank == 0) {
-        is_whole = tell(session, all, count);
+        is_whole = report(session, all, count);
         diag_finish(&session->diags);
         session_deliver(session);
     }
