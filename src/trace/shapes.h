@@ -118,6 +118,9 @@ static inline bool primitive_is_quadric(const PreparedPrimitive *primitive)
 static inline bool primitive_has_lanes(const PreparedPrimitive *primitive)
 {
     PrimitiveKind kind = (PrimitiveKind)primitive->kind;
+    if (primitive_is_mesh(primitive)) {
+        return true;
+    }
     if (kind == PRIMITIVE_PRISM) { // with ends, and walls along one axis
         return !(primitive->flags & PRIMITIVE_OPEN) && !outline_is_conic(&primitive->list);
     }

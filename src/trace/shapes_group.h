@@ -8,6 +8,7 @@
 #ifndef TRACE_SHAPES_GROUP_H
 #define TRACE_SHAPES_GROUP_H
 
+#include "trace/mesh_lanes.h"
 #include "trace/shapes_walk.h"
 #include "trace/primitive_lanes.h"
 #include "trace/spheres_group.h"
@@ -16,8 +17,10 @@ enum { GROUP_ITEMS = 8 }; // for each ray
 
 typedef struct ShapeGroup {
     const ShapeTable *table;
-    RayStart start; // of all of them, outward
+    RayStart start; // of all of them, outward; of faces of a mesh that of the first
     const PreparedPrimitive *left;
+    ShapeId shape[TILE_RAYS]; // that they start on
+    uint64_t inward;          // of faces: those that do not go outward
     double far;                    // of any origin from 0
     double start_error[TILE_RAYS]; // as in ShapeQuery
     // Of balls, straight primitives and curves, at most: see passed_error; -INFINITY: nothing.
@@ -120,6 +123,11 @@ RT_ALWAYS_INLINE LanesMet group_primitive_lanes(const ShapeGroup *from, const Ra
     return (LanesMet){met, lanes.possible & ~met & ~(lanes.certain & behind)};
 }
 
+static RayStart group_start(const ShapeGroup *from, unsigned i)
+{
+    return (RayStart){from->shape[i], from->inward >> i & 1, from->start.use};
+}
+
 // Whether an item, whose box may be NULL, is before the end of a ray.
 static bool group_ray_meets(const ShapeGroup *from, const RayGroup *group, unsigned i, ShapeItem item,
                             const ItemBox *box)
@@ -127,7 +135,7 @@ static bool group_ray_meets(const ShapeGroup *from, const RayGroup *group, unsig
     Ray ray = {lane_get(group->origin, i), lane_get(group->direction, i)};
     double end = group->distance[i];
     ShapeQuery q;
-    query_start(&q, from->table, &ray, from->start, from->start_error[i], true);
+    query_start(&q, from->table, &ray, group_start(from, i), from->start_error[i], true);
     q.box = box;
     Foremost first = foremost_start(&(Hit){end, SHAPE_NONE, false}, 0, end);
     item_closest(&q, item, &first);
@@ -167,10 +175,106 @@ static uint64_t group_quadric(const ShapeGroup *from, const RayGroup *group, con
     return may & ~occluded;
 }
 
+// The faces of a mesh that the rays start on.
+static DoublesMask group_left_faces(const ShapeGroup *from, const PreparedPrimitive *mesh, unsigned at)
+{
+    DoublesMask left = {0};
+    for (unsigned i = 0; i < DOUBLES; i++) {
+        ShapeId shape = from->shape[at + i];
+        bool is_face = shape != SHAPE_NONE && shape_kind(shape) == SHAPE_FACE;
+        left[i] = is_face ? shape_index(shape) - mesh->mesh.first_face : MESH_NO_FACE;
+    }
+    return left;
+}
+
+// Those of some rays that have not passed a root, for certain.
+static unsigned group_not_passed(const ShapeGroup *from, const RayGroup *group, const PreparedPrimitive *primitive,
+                                 const PrimitiveLanes *lanes, unsigned at)
+{
+    unsigned behind = lanes->possible;
+    if (!starts_beside(from->table, from->start, primitive)) {
+        return behind;
+    }
+    for (unsigned rest = behind; rest; rest &= rest - 1) {
+        unsigned i = (unsigned)__builtin_ctz(rest);
+        Ray ray = {lane_get(group->origin, at + i), lane_get(group->direction, at + i)};
+        double error = from->start_error[at + i];
+        error = error < 0.0 ? shapes_start_error(from->table, &ray, group_start(from, at + i)) : error;
+        behind &= ~((unsigned)!(lanes->root[i] > lanes->bound[i] + error) << i);
+    }
+    return behind;
+}
+
+// A vector of rays against a mesh.
+static __attribute__((noinline)) LanesMet group_mesh_lanes(const ShapeGroup *from, const RayGroup *group,
+                                                           const LanePrimitive *own, const ItemBox *box, unsigned at,
+                                                           unsigned asked)
+{
+    const PreparedPrimitive *primitive = own->solid;
+    RayLanes rays = lane_primitive_ray(own, group->origin, group->direction, at);
+    DoublesMask is_asked = doubles_bits_mask(asked);
+    unsigned one = (unsigned)__builtin_ctz(asked);
+    Vec3s f = vec3s_choose(is_asked, rays.f, vec3s_splat(vec3(rays.f.x[one], rays.f.y[one], rays.f.z[one])));
+    Vec3s d = vec3s_choose(is_asked, rays.d, vec3s_splat(vec3(rays.d.x[one], rays.d.y[one], rays.d.z[one])));
+    Vec3 point = linear_direction(&primitive->to_object, vec3_sub(group->end, primitive->centre));
+    double rounding = 0x1p-44 * (from->far + vec3_length(primitive->centre));
+    double radius = vec3_sum_abs(primitive->columns) * (group->end_radius + rounding);
+    MeshLanes mesh = {.is_any = true};
+    BvhWalk walk;
+    bool is_apart;
+    if (!mesh_lanes_set(&mesh, primitive->mesh.table, f, d)) {
+        return (LanesMet){0, asked};
+    }
+    if (!mesh_lanes_start(&mesh, point, radius, &walk, &is_apart)) {
+        return (LanesMet){0, is_apart ? asked : 0};
+    }
+    Doubles end = doubles_load(&group->distance[at]), away = vec3s_length(vec3s_sub(f, vec3s_splat(point)));
+    mesh.left = group_left_faces(from, primitive, at);
+    mesh.nearest = doubles_choose(is_asked, end * mesh.length * MESH_BEYOND, doubles_splat(-1.0));
+    if (!mesh_lanes_walk(&mesh, &walk, doubles_greatest(away) * (1.0 + 0x1p-40) + 2.0 * radius)) {
+        return (LanesMet){0, asked};
+    }
+    PrimitiveLanes lanes = {.possible = asked & doubles_mask_bits(mesh.face != (int64_t)MESH_NO_FACE)};
+    unsigned open = lanes.possible | (asked & doubles_mask_bits(mesh.unsure)), met = 0;
+    if (lanes.possible) {
+        Doubles enter, before = end * (1.0 - 0x1p-40);
+        lanes.root = mesh.t / mesh.length;
+        lanes.bound = MESH_ERROR_MOST * lanes.root;
+        met = group_not_passed(from, group, primitive, &lanes, at) & doubles_gt(before, lanes.root + lanes.bound);
+        met &= box_lanes_enter(&from->table->tree, box, vec3s_load(group->origin, at), rays.world, &enter);
+        met &= doubles_gt(before, enter);
+    }
+    return (LanesMet){met, open & ~met};
+}
+
+// As group_primitive_kind.
+static uint64_t group_mesh(const ShapeGroup *from, const RayGroup *group, const PreparedPrimitive *primitive,
+                           const ItemBox *box, uint64_t occluded, uint64_t *may)
+{
+    LanePrimitive own;
+    lane_primitive_set(&own, primitive, from->far);
+    for (unsigned at = 0; at < group->whole; at += DOUBLES) {
+        unsigned asked = ~occluded >> at & LANES_ALL;
+        if (asked) {
+            LanesMet found = group_mesh_lanes(from, group, &own, box, at, asked);
+            occluded |= (uint64_t)found.met << at;
+            *may |= (uint64_t)found.open << at;
+            if (found.open == asked) { // they give up, and so would others
+                *may |= ~occluded & ~UINT64_C(0) << at;
+                return occluded;
+            }
+        }
+    }
+    return occluded;
+}
+
 static uint64_t group_primitive(const ShapeGroup *from, const RayGroup *group, const PreparedPrimitive *primitive,
                                 const ItemBox *box, uint64_t occluded, uint64_t *may)
 {
     *may = 0;
+    if (primitive_is_mesh(primitive) && !(primitive->hidden & from->start.use)) {
+        return group_mesh(from, group, primitive, box, occluded, may);
+    }
     if ((primitive->hidden & from->start.use) ||
         (primitive == from->left &&
          (primitive_is_flat(primitive) || (!primitive->flips && primitive_is_convex(primitive))))) {
@@ -256,23 +360,55 @@ static bool shape_group_occluded(ShapeGroup *from, const RayGroup *group, uint64
     return true;
 }
 
+// Those of some surfaces that are on faces of meshes.
+static uint64_t surfaces_on_faces(const TileSurfaces *from, uint64_t rest)
+{
+    uint64_t faces = 0;
+    for (; rest; rest &= rest - 1) {
+        int i = __builtin_ctzll(rest);
+        faces |= (uint64_t)(shape_kind(from->shape[i]) == SHAPE_FACE) << i;
+    }
+    return faces;
+}
+
+// Those of some surfaces whose rays may go together with those of one: of its shape, or on faces of its mesh.
+static uint64_t surfaces_together(const ShapeTable *table, const TileSurfaces *from, uint64_t rest, ShapeId shape)
+{
+    if (shape_kind(shape) != SHAPE_FACE) {
+        return rest & surfaces_alike(from, shape);
+    }
+    uint32_t mesh = table_face_primitive(table, shape);
+    uint64_t together = 0;
+    for (rest = surfaces_on_faces(from, rest); rest; rest &= rest - 1) {
+        int i = __builtin_ctzll(rest);
+        together |= (uint64_t)(table_face_primitive(table, from->shape[i]) == mesh) << i;
+    }
+    return together;
+}
+
 static uint64_t shapes_occluded_surfaces(const ShapeTable *table, const TileSurfaces *from, const SurfaceRays *rays,
                                          const double start_error[TILE_RAYS], uint64_t asked, uint64_t *left)
 {
     RayGroup group;
     ShapeGroup own;
-    uint64_t all = 0;
+    uint64_t all = 0, inward = surfaces_inward(from, rays);
     own.table = table;
-    *left = asked & surfaces_inward(from, rays);
+    *left = asked & inward & ~surfaces_on_faces(from, asked & inward);
     for (uint64_t rest = asked & ~*left; rest;) {
         ShapeId shape = from->shape[__builtin_ctzll(rest)];
-        uint64_t members = rest & surfaces_alike(from, shape), occluded;
+        uint64_t members = surfaces_together(table, from, rest, shape), occluded;
         unsigned count = 0;
         rest &= ~members;
+        own.inward = 0;
         own.start = (RayStart){shape, false, HIDDEN_SHADOW};
         own.left = starts_on_primitive(own.start) ? table_primitive(table, shape) : NULL;
         for (uint64_t each = members; each; each &= each - 1) {
+            own.shape[count] = from->shape[__builtin_ctzll(each)];
+            own.inward |= (inward >> __builtin_ctzll(each) & 1) << count;
             own.start_error[count++] = start_error[__builtin_ctzll(each)];
+        }
+        for (unsigned i = count; i % DOUBLES != 0; i++) {
+            own.shape[i] = SHAPE_NONE;
         }
         if (count < GROUP_LEAST || !group_gather(from, rays, members, &group) ||
             !shape_group_occluded(&own, &group, &occluded)) {

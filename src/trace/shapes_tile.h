@@ -11,6 +11,7 @@
 #define TRACE_SHAPES_TILE_H
 
 #include "trace/cone_test.h"
+#include "trace/mesh_lanes.h"
 #include "trace/shapes_walk.h"
 #include "trace/primitive_lanes_surface.h"
 #include "trace/tile_planes.h"
@@ -150,9 +151,10 @@ RT_ALWAYS_INLINE void tile_take_lanes(ShapesTile *of, const PreparedPrimitive *p
                                       unsigned at, unsigned nearest, const PrimitiveLanes *lanes)
 {
     DoublesMask *shape = (DoublesMask *)&of->shape[at];
-    DoublesMask met =
-        ((DoublesMask){0} + primitive_shape((uint32_t)(primitive - of->table->primitives), 0)) | lanes->side;
-    bool flips = primitive->flips && !primitive_is_flat(primitive);
+    bool is_mesh = primitive_is_mesh(primitive); // `side` is all of the shape then
+    ShapeId own = is_mesh ? 0 : primitive_shape((uint32_t)(primitive - of->table->primitives), 0);
+    DoublesMask met = ((DoublesMask){0} + own) | lanes->side;
+    bool flips = primitive->flips && (is_mesh || !primitive_is_flat(primitive));
     doubles_store(&of->hits->t[at], doubles_choose_bits(nearest, lanes->root, doubles_load(&of->hits->t[at])));
     *shape = (DoublesMask)doubles_choose_bits(nearest, (Doubles)met, (Doubles)*shape);
     lane_bits_set(&of->hits->met, at, nearest, ~0u);
@@ -162,26 +164,22 @@ RT_ALWAYS_INLINE void tile_take_lanes(ShapesTile *of, const PreparedPrimitive *p
     lane_bits_set(&of->hits->inside, at, nearest, flips ? ~lanes->leaves : lanes->leaves);
 }
 
-// A vector of rays against a primitive: what primitive_closest does to each. What is nearest, or is not, with a margin
-// is done at once.
-RT_ALWAYS_INLINE void tile_primitive_lanes(ShapesTile *of, const TilePrimitive *own, PrimitiveKind kind, unsigned at,
-                                           unsigned asked)
+// Brings the hits of a vector of rays up to date with what they meet of a primitive. What is nearest, or is not, with a
+// margin is done at once.
+RT_ALWAYS_INLINE void tile_lanes_offer(ShapesTile *of, const TilePrimitive *own, PrimitiveKind kind, unsigned at,
+                                       const PrimitiveLanes *lanes)
 {
     const PreparedPrimitive *primitive = own->solid.solid;
-    PrimitiveLanes lanes;
     Vec3s world = vec3s_load(of->tile->direction, at);
-    RayLanes rays = {own->f, linears_direction(&own->solid.to_object, world), world};
-    if (!primitive_lanes(&own->solid, kind, &rays, asked, &lanes)) {
-        return;
-    }
     TileForemost *all = of->first;
     Doubles from = doubles_load(&all->from[at]);
     Doubles limit = doubles_load(&all->limit[at]), beaten = doubles_load(&all->beaten[at]);
-    unsigned other = lanes.possible & ~(lanes.certain & doubles_gt(lanes.root - lanes.bound, limit)), nearest = 0;
-    if (other & lanes.certain) {
+    unsigned nearest = 0;
+    unsigned other = lanes->possible & ~(lanes->certain & doubles_gt(lanes->root - lanes->bound, limit));
+    if (other & lanes->certain) {
         Vec3s origin = vec3s_splat(of->tile->origin);
-        Doubles enter, to = lanes.root + lanes.bound, begin = lanes.root - lanes.bound;
-        nearest = other & lanes.certain & box_lanes_enter(&of->table->tree, own->box, origin, world, &enter);
+        Doubles enter, to = lanes->root + lanes->bound, begin = lanes->root - lanes->bound;
+        nearest = other & lanes->certain & box_lanes_enter(&of->table->tree, own->box, origin, world, &enter);
         to = doubles_choose(to < enter, enter, to);
         begin = doubles_choose(begin < enter, enter, begin);
         nearest &= doubles_gt(from, to) & doubles_gt(beaten, to) & doubles_gt(limit, to);
@@ -190,12 +188,72 @@ RT_ALWAYS_INLINE void tile_primitive_lanes(ShapesTile *of, const TilePrimitive *
         doubles_store(&of->enter[at], doubles_choose_bits(nearest, enter, doubles_load(&of->enter[at])));
     }
     if (nearest) {
-        tile_take_lanes(of, primitive, kind, at, nearest, &lanes);
+        tile_take_lanes(of, primitive, kind, at, nearest, lanes);
     }
     for (other &= ~nearest; RT_UNLIKELY(other); other &= other - 1) {
         tile_ray(of, at + (unsigned)__builtin_ctz(other), (uint32_t)(primitive - of->table->primitives), own->box,
                  NULL);
     }
+}
+
+// A vector of rays against a primitive: what primitive_closest does to each.
+RT_ALWAYS_INLINE void tile_primitive_lanes(ShapesTile *of, const TilePrimitive *own, PrimitiveKind kind, unsigned at,
+                                           unsigned asked)
+{
+    PrimitiveLanes lanes;
+    Vec3s world = vec3s_load(of->tile->direction, at);
+    RayLanes rays = {own->f, linears_direction(&own->solid.to_object, world), world};
+    if (primitive_lanes(&own->solid, kind, &rays, asked, &lanes)) {
+        tile_lanes_offer(of, own, kind, at, &lanes);
+    }
+}
+
+// What a vector of rays meets of a mesh, and from which side.
+static void tile_mesh_met(const ShapesTile *of, const PreparedPrimitive *primitive, const MeshLanes *mesh, unsigned at,
+                          PrimitiveLanes *lanes)
+{
+    lanes->leaves = 0;
+    for (unsigned rest = lanes->possible & lanes->certain; rest; rest &= rest - 1) {
+        unsigned i = (unsigned)__builtin_ctz(rest);
+        uint32_t face = (uint32_t)mesh->face[i];
+        Ray ray = {of->tile->origin, lane_get(of->tile->direction, at + i)}, object = primitive_ray(primitive, &ray);
+        lanes->side[i] = shape_id(SHAPE_FACE, primitive->mesh.first_face + face);
+        lanes->leaves |= (unsigned)mesh_is_left(primitive, &ray, &object, face) << i;
+    }
+}
+
+// A vector of rays against a mesh, in whose space they begin at `origin`. False when they had better go one by one.
+static __attribute__((noinline)) bool tile_mesh_lanes(ShapesTile *of, const TilePrimitive *own, Vec3 origin,
+                                                      unsigned at, unsigned asked)
+{
+    const PreparedPrimitive *primitive = own->solid.solid;
+    MeshLanes mesh;
+    BvhWalk walk;
+    bool is_apart = true, is_walked = false;
+    PrimitiveLanes lanes = {asked, 0, 0, {0}, {0}, {0}};
+    DoublesMask is_asked = doubles_bits_mask(asked);
+    Vec3 one = lane_get(of->tile->direction, at + (unsigned)__builtin_ctz(asked));
+    Vec3s world = vec3s_choose(is_asked, vec3s_load(of->tile->direction, at), vec3s_splat(one));
+    mesh.is_any = false;
+    if (mesh_lanes_set(&mesh, primitive->mesh.table, own->f, linears_direction(&own->solid.to_object, world))) {
+        is_walked = mesh_lanes_start(&mesh, origin, 0.0, &walk, &is_apart);
+    }
+    if (is_walked) {
+        Doubles limit = doubles_load(&of->first->limit[at]) * mesh.length * MESH_BEYOND;
+        mesh.nearest = doubles_choose(is_asked, limit, doubles_splat(-1.0));
+        is_apart = !mesh_lanes_walk(&mesh, &walk, doubles_greatest(mesh.nearest));
+    }
+    if (!is_apart) {
+        lanes.certain = ~doubles_mask_bits(mesh.unsure);
+        lanes.possible &= doubles_mask_bits((mesh.face != (int64_t)MESH_NO_FACE) | mesh.unsure);
+        lanes.root = mesh.t / mesh.length;
+        lanes.bound = MESH_ERROR_MOST * lanes.root;
+        tile_mesh_met(of, primitive, &mesh, at, &lanes);
+    }
+    if (lanes.possible) {
+        tile_lanes_offer(of, own, PRIMITIVE_MESH, at, &lanes);
+    }
+    return !is_apart;
 }
 
 // The rays for which something may yet be the first that is no nearer than that.
@@ -233,6 +291,22 @@ RT_ALWAYS_INLINE void tile_primitive_kind(ShapesTile *of, const PreparedPrimitiv
     }
 }
 
+static void tile_mesh(ShapesTile *of, const PreparedPrimitive *primitive, const ItemBox *box, uint64_t may)
+{
+    Vec3 origin = linear_direction(&primitive->to_object, vec3_sub(of->tile->origin, primitive->centre));
+    TilePrimitive own = {.box = box, .f = vec3s_splat(origin)};
+    lane_primitive_set(&own.solid, primitive, of->far);
+    bool go_together = true;
+    for (unsigned at = 0; at < TILE_RAYS && go_together; at += DOUBLES) {
+        unsigned asked = may >> at & LANES_ALL;
+        go_together = !asked || tile_mesh_lanes(of, &own, origin, at, asked);
+        may &= ~((uint64_t)LANES_ALL << at);
+    }
+    for (; may; may &= may - 1) {
+        tile_ray(of, (unsigned)__builtin_ctzll(may), (uint32_t)(primitive - of->table->primitives), box, NULL);
+    }
+}
+
 // A quadric is asked by the rays that may meet it.
 static void tile_quadric(ShapesTile *of, const PreparedPrimitive *primitive, const ItemBox *box, uint64_t may)
 {
@@ -256,6 +330,10 @@ static void tile_primitive(ShapesTile *of, const PreparedPrimitive *primitive, c
     }
     if (primitive_is_quadric(primitive)) {
         tile_quadric(of, primitive, box, may);
+        return;
+    }
+    if (primitive_is_mesh(primitive)) {
+        tile_mesh(of, primitive, box, may);
         return;
     }
     switch (primitive->kind) {

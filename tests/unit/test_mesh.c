@@ -1,7 +1,8 @@
 // Closed meshes are watertight: a ray from inside meets one, whatever it is aimed at, and a line crosses it as often
 // inward as outward. The rays go through inner points of faces, through edges and through corners, of meshes that are
 // regular, so that edges lie along axes, and of ones with slivers; from the middle, from near a corner, and off the
-// mesh as it is placed by a map.
+// mesh as it is placed by a map. Tiles of rays, and what is dark of what they meet, are as single rays say, on every
+// instruction set.
 //
 // test_mesh [rays of a mesh [seed]]; 20 000 if nothing is said, 10^7 in all in `make check-long`; a new seed each run.
 //
@@ -307,6 +308,118 @@ static void check_field(uint64_t seed)
     mesh_free(mesh);
 }
 
+typedef struct TileCount {
+    unsigned met, dark, lit, together, wrong;
+} TileCount;
+
+// What a tile meets, ray by ray.
+static void count_hits(const Geometry *g, const SphereTile *tile, const TileHits *hits, TileCount *count)
+{
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        SphereRay ray = sphere_tile_ray(tile, i);
+        Hit hit;
+        bool is_met = geometry_closest(g, TRACE_ALL_FEATURES, (Ray){ray.origin, ray.direction}, RAY_START_CAMERA,
+                                       (double)INFINITY, &hit);
+        bool same = is_met == (hits->met >> i & 1) &&
+                    (!is_met || (hits->t[i] == hit.t && hits->shape[i] == hit.shape &&
+                                 (hits->inside >> i & 1) == hit.inside));
+        count->met += is_met;
+        count->wrong += !same;
+    }
+}
+
+// What is dark of surfaces, one by one, by a light that is no larger than `aside`.
+static void count_shadows(const Geometry *g, const TileSurfaces *from, Vec3 light, double aside, Random *random,
+                          TileCount *count)
+{
+    SurfaceRays rays = {.end = light, .end_radius = aside};
+    uint64_t asked = ~UINT64_C(0) >> (TILE_RAYS - from->count), left;
+    double start_error[TILE_RAYS];
+    for (int i = 0; i < from->count; i++) {
+        Vec3 end = vec3_add_scaled(light, random_between(random, 0, aside), random_direction(random));
+        Vec3 offset = vec3_sub(end, tile_surface_point(from, i));
+        rays.distance[i] = vec3_length(offset);
+        lane_set(rays.towards, (unsigned)i, vec3_scale(1.0 / rays.distance[i], offset));
+        start_error[i] = -1.0;
+    }
+    uint64_t dark = geometry_occluded_surfaces(g, TRACE_ALL_FEATURES, from, &rays, true, asked);
+    (void)g->kernels->shapes_occluded_surfaces(&g->shapes, from, &rays, start_error, asked, &left);
+    count->together += (unsigned)__builtin_popcountll(asked & ~left);
+    for (int i = 0; i < from->count; i++) {
+        Ray ray = {tile_surface_point(from, i), lane_get(rays.towards, (unsigned)i)};
+        RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), ray.direction) < 0.0, HIDDEN_SHADOW};
+        bool is_dark = geometry_occluded(g, TRACE_ALL_FEATURES, ray, start, rays.distance[i]);
+        count->wrong += is_dark != (dark >> i & 1);
+        count->dark += is_dark;
+        count->lit += !is_dark;
+    }
+}
+
+// Tiles that look at places of the mesh, from outside and within, so wide that all rays are nearly one up to all of it.
+static void check_tiles(const char *name, Mesh *mesh, Transform to_world, uint64_t seed)
+{
+    Random random = {seed};
+    Scene scene;
+    Geometry *g = geometry_of(&scene, mesh, to_world);
+    TileCount count = {0};
+    for (int turn = 0; turn < 300; turn++) {
+        double away = turn % 4 ? 3.0 : 0.5;
+        Vec3 middle = vec3_scale(0.5, vec3_add(mesh->low, mesh->high)), size = vec3_sub(mesh->high, mesh->low), way[2];
+        for (int i = 0; i < 2; i++) {
+            Vec3 own = vec3_scale(away, random_direction(&random));
+            own = turn % 8 == 1 ? vec3(0.0, 0.0, -away) : own; // along an axis
+            way[i] = transform_point(&to_world, vec3_add(middle, vec3(own.x * size.x, own.y * size.y, own.z * size.z)));
+        }
+        SphereTile tile;
+        Vec3 towards = vec3_normalize(vec3_sub(transform_point(&to_world, aim_of(&random, mesh)), way[0]));
+        tile_of(&random, way[0], towards, pow(10.0, random_between(&random, turn % 9 ? -2.5 : -15.0, -0.7)), &tile);
+        double aside = turn % 5 ? 0.0 : 0.1 * vec3_length(way[1]);
+        uint64_t same = random_bits(&random);
+        for (size_t isa = 0; geometry_isa(isa); isa++) {
+            Random own = {same};
+            TileHits hits;
+            TileSurfaces surfaces;
+            MaterialIndex material[TILE_RAYS];
+            g->kernels = sphere_kernels_choose(geometry_isa(isa));
+            query_tile_closest(g, TRACE_ALL_FEATURES, &tile, true, &hits);
+            count_hits(g, &tile, &hits, &count);
+            if (hits.met) {
+                geometry_tile_surfaces(g, TRACE_ALL_FEATURES, &tile, &hits, hits.met, &surfaces, material);
+                count_shadows(g, &surfaces, way[1], aside, &own, &count);
+            }
+        }
+    }
+    tap_ok(count.wrong == 0 && count.met > 1000 && count.dark > 100 && count.lit > 100 && count.together > 100,
+           "%s: tiles are as single rays are (%u of %u hits, %u dark and %u lit are not; %u together)", name, count.wrong,
+           count.met, count.dark, count.lit, count.together);
+    geometry_free(g);
+    scene_fini(&scene);
+}
+
+// A rough field of heights, smooth to look at or not, with water or without.
+static Mesh *hills(Random *random, bool is_smooth, double water)
+{
+    Mesh *mesh = field_of(random, 37, 29);
+    mesh->field->water = water;
+    if (is_smooth && !mesh_field_smooth(mesh)) {
+        abort();
+    }
+    return mesh;
+}
+
+static void check_all_tiles(Random *random, uint64_t seed)
+{
+    Transform none = transform_identity();
+    Transform turned =
+        transform_compose(transform_rotate(vec3(20.0, 30.0, 40.0)), transform_scale(vec3(3.0, -0.7, 1.0)));
+    Transform level = transform_compose(transform_scale(vec3(0.1, 1.0, 0.1)), transform_rotate(vec3(-35.0, 10.0, 0.0)));
+    check_tiles("globe", globe(random, 0.3, 1.0), turned, seed + 1);
+    check_tiles("cube", cube(7), none, seed + 2);
+    check_tiles("field of heights", hills(random, false, 0.0), level, seed + 3);
+    check_tiles("smooth field", hills(random, true, 0.0), level, seed + 4);
+    check_tiles("field with water", hills(random, false, 0.6), level, seed + 5);
+}
+
 int main(int argc, char **argv)
 {
     uint64_t rays = argc > 1 ? strtoull(argv[1], NULL, 10) : 20000, seed = random_seed(argc > 2 ? argv[2] : NULL);
@@ -326,5 +439,6 @@ int main(int argc, char **argv)
     check_closed("cube", cube(6), none, rays, seed + 4);
     check_closed("cube that is turned", cube(5), turned, rays, seed + 5);
     check_closed("small globe far away", globe(&random, 0.1, 1.0), far, rays, seed + 6);
+    check_all_tiles(&random, seed + 40);
     return tap_done();
 }
