@@ -336,7 +336,8 @@ static void count_shadows(const Geometry *g, const TileSurfaces *from, Vec3 ligh
     uint64_t asked = ~UINT64_C(0) >> (TILE_RAYS - from->count), left;
     double start_error[TILE_RAYS];
     for (int i = 0; i < from->count; i++) {
-        Vec3 end = vec3_add_scaled(light, random_between(random, 0, aside), random_direction(random));
+        double away = random_between(random, 0, aside);
+        Vec3 end = vec3_add_scaled(light, away, random_direction(random));
         Vec3 offset = vec3_sub(end, tile_surface_point(from, i));
         rays.distance[i] = vec3_length(offset);
         lane_set(rays.towards, (unsigned)i, vec3_scale(1.0 / rays.distance[i], offset));
