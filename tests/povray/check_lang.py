@@ -5,6 +5,7 @@ Usage: check_lang.py FILE.test...   Prints TAP; skips where there is no POV-Ray.
 """
 # SPDX-License-Identifier: MIT
 
+import concurrent.futures
 import glob
 import os
 import subprocess
@@ -17,6 +18,8 @@ import pictures  # noqa: E402
 
 # Keeps POV-Ray from warning about an empty scene; in one line, so that nothing else moves.
 PREFACE = "#version 3.7; global_settings { assumed_gamma 1 } sphere { 0, 1 }\n"
+
+AT_ONCE = 6  # runs of POV-Ray, most of whose time is sleep
 
 
 def read_cases(path):
@@ -71,12 +74,12 @@ def main():
         return 0
     number = failed = 0
     top = os.environ.get("top_srcdir", ".")
-    for path in sys.argv[1:] or sorted(glob.glob(f"{top}/tests/lang/*.test")):
-        for name, program, files, declared, expected in read_cases(path):
-            if expected is None:
-                continue
+    cases = [(path, *case) for path in sys.argv[1:] or sorted(glob.glob(f"{top}/tests/lang/*.test"))
+             for case in read_cases(path) if case[-1] is not None]
+    with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
+        answers = pool.map(lambda case: run_povray(*case[2:5]), cases)
+        for (path, name, _, _, _, expected), (got, code, errors) in zip(cases, answers):
             number += 1
-            got, code, errors = run_povray(program, files, declared)
             fine = code == 0 and got.rstrip("\n") == expected
             print(f"{'ok' if fine else 'not ok'} {number} - {os.path.basename(path)}: {name}", flush=True)
             if not fine:

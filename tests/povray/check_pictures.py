@@ -2,10 +2,11 @@
 """The same scenes given to rtlang and to POV-Ray by rtcheck: the pictures must agree in every pixel but silhouette ties.
 
 All of tests/povray/*.scn, tests/povray/mapped/*.scn (whose image files are made first) and examples/*.scn at 320x240
-without anti-aliasing; a scene's line tells the greatest difference and how many pixels are beyond 2/65535. A scene that says nothing of gamma is compared as stored codes, which both programs then
-write as they are. Prints TAP.
+without anti-aliasing; a scene's line tells the greatest difference and how many pixels are beyond 2/65535. A scene that
+says nothing of gamma is compared as stored codes, which both programs then write as they are. Prints TAP.
 SPDX-License-Identifier: MIT
 """
+import concurrent.futures
 import glob
 import json
 import os
@@ -20,6 +21,7 @@ import pictures  # noqa: E402
 
 TOP = os.environ.get("top_srcdir", ".")
 MISSING_TOOL = 3  # rtcheck's exit code when it cannot run POV-Ray or cannot read pictures
+AT_ONCE = 6  # runs of rtcheck: most of the time that POV-Ray takes for a small scene it sleeps
 
 
 def scenes():
@@ -27,7 +29,16 @@ def scenes():
 
 
 def run_rtcheck(names, povray, folders):
-    """Scene -> what rtcheck says of it; and its exit code and messages."""
+    """Scene -> what rtcheck says of it; and its greatest exit code and its messages."""
+    with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
+        parts = list(pool.map(lambda part: run_part(part, povray, folders),
+                              [names[first::AT_ONCE] for first in range(min(AT_ONCE, len(names)))]))
+    answers = {scene: answer for part, _, _ in parts for scene, answer in part.items()}
+    return answers, max(status for _, status, _ in parts), "".join(messages for _, _, messages in parts)
+
+
+def run_part(names, povray, folders):
+    """The same by one run."""
     done = subprocess.run([os.environ["RTCHECK"], f"--width={pictures.WIDTH}", f"--height={pictures.HEIGHT}", "--json",
                            f"--threshold={pictures.CODE_BAR}/65535", f"--ties={pictures.TIE_SHARE}",
                            f"--povray={povray}", *[f"-I{folder}" for folder in folders], *names],
