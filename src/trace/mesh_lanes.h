@@ -75,7 +75,8 @@ RT_ALWAYS_INLINE bool mesh_lanes_set(MeshLanes *of, const MeshTable *table, Vec3
 static DoublesMask mesh_lanes_show(const MeshLanes *of, uint32_t face, Doubles t, DoublesMask met)
 {
     for (unsigned i = 0; i < DOUBLES; i++) {
-        Ray ray = {vec3(of->origin.x[i], of->origin.y[i], of->origin.z[i]), vec3(of->direction[0][i], of->direction[1][i], of->direction[2][i])};
+        Ray ray = {vec3(of->origin.x[i], of->origin.y[i], of->origin.z[i]),
+                   vec3(of->direction[0][i], of->direction[1][i], of->direction[2][i])};
         met[i] = met[i] && mesh_shows(of->table, &ray, t[i], face) ? -1 : 0;
     }
     return met;

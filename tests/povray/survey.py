@@ -401,7 +401,8 @@ def survey(options, paths, copies):
             list(pool.map(lambda record: render(record, options, folders), accepted))
     if options.times:
         for record in (each for each in records if each["outcome"] == "accepted"):
-            record["times"] = survey_times.measure(record["path"], options.size, options.turns, options.timeout, folders)
+            record["times"] = survey_times.measure(frame_scene(record["path"]), options.size, options.turns,
+                                                   options.timeout, folders)
     return records
 
 

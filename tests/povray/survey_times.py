@@ -34,7 +34,7 @@ def commands(scene, width, height, folders):
     """The command of each program."""
     name = os.path.basename(scene)
     return {
-        "rtlang": [os.environ["RTLANG"], "-q", "-t1", f"-W{width}", f"-H{height}", "-o", "survey_rtlang.png",
+        "rtlang": [os.environ["RTLANG"], "-q", "-t1", "--allow-write=.", f"-W{width}", f"-H{height}", "-o", "survey_rtlang.png",
                    *(f"-I{place}" for place in folders), name],
         "povray": [pictures.povray(), f'+I"./{name}"', "+Osurvey_povray.png", f"+W{width}", f"+H{height}", "-A", "-D", "-P",
                    "+WT1", *(f"+L{place}" for place in folders)],
