@@ -367,6 +367,11 @@ check-long: check-growth
 check-growth: rtlang$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_growth.py
 
+# For who runs some of them: make check TESTS="...".
+.PHONY: list-tests
+list-tests:
+	@printf '%s\n' $(TESTS)
+
 # The run ends with what it left out, and why.
 check-local: check-TESTS
 	@test ! -e $(TEST_SUITE_LOG) || $(AWK) -f $(srcdir)/%D%/skipped.awk $(TEST_SUITE_LOG)
