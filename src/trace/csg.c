@@ -217,7 +217,7 @@ static __attribute__((noinline)) bool traversal_meets_bounds(CsgTraversal *p, Ra
 
 RT_ALWAYS_INLINE void traversal_ask(CsgTraversal *p, uint32_t index, RayStart start, bool has_meshes)
 {
-    if (RT_UNLIKELY(traversal_primitive(p, index)->bounds) && !p->csg->has_bounds) {
+    if (p->csg->asks_bounds && traversal_primitive(p, index)->bounds) {
         return; // the ray has met it
     }
     bool is_own = traversal_is_own(p, start);
@@ -493,7 +493,7 @@ RT_ALWAYS_INLINE void closest(const ShapeTable *table, const CsgTree *csg, const
                       .decided_until = (double)INFINITY};
     uint64_t met[csg->parts ? csg_words(csg) : 1];
     p.met = met;
-    if (csg->seen_count < csg->primitive_count && !csg->has_bounds && !traversal_meets_bounds(&p, start)) {
+    if (csg->asks_bounds && !traversal_meets_bounds(&p, start)) {
         return;
     }
     if (csg->parts) {

@@ -57,8 +57,9 @@ typedef struct CsgTree {
     uint8_t hidden;
     bool is_plain;  // all of a few convex primitives in one node
     bool is_meet;   // what convex primitives, any number of them, have in common
-    bool is_convex : 1;  // its primitives are
-    bool has_bounds : 1; // some of its nodes are, beside such as are asked before all else
+    bool is_convex : 1;   // its primitives are
+    bool has_bounds : 1;  // some of its nodes are, beside such as are asked before all else
+    bool asks_bounds : 1; // some are asked before all else, and no others are
     uint32_t order;
     uint32_t seen_count; // its primitives from there on only clip others
     uint32_t mesh_count;

@@ -99,6 +99,8 @@ static Bounds part_bounds(const Primitive *primitive, int exponent, double down)
 
 // ---- composites
 
+enum { UNSEEN_FEW = 64 }; // primitives of a composite among which each ray looks for such as bound it
+
 // Whether a primitive bounds all that is seen of a composite, and a ray meets it where it is inside of it: rays ask
 // such ones before all others.
 static bool bounds_all(const ShapeTable *table, const CsgTree *csg, const PreparedPrimitive *primitive)
@@ -138,7 +140,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
                      .is_convex = true,
                      .order = composite->order};
     const TreeNode *root = &table->nodes[csg->first_node];
-    uint32_t children = 0, bounds = 0; // primitives at the root; nodes that bound, less those that are asked first
+    uint32_t children = 0, bounds = 0, first_bounds = 0; // primitives at the root; nodes that bound; those asked first
     for (uint32_t i = csg->first_node; i < csg->first_node + csg->node_count; i++) {
         bounds += table->nodes[i].op == NODE_BOUND;
     }
@@ -158,11 +160,12 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
             primitive->mesh.cursor = csg->mesh_count++;
         }
         csg_place_primitive(table, primitive);
-        bounds -= bounds_all(table, csg, primitive);
+        first_bounds += bounds_all(table, csg, primitive);
         children += primitive->node == csg->first_node;
         csg->is_meet = csg->is_meet && (primitive->decides || primitive->bounds);
     }
-    csg->has_bounds = bounds > 0;
+    csg->has_bounds = bounds > first_bounds || (bounds > 0 && csg->primitive_count - csg->seen_count > UNSEEN_FEW);
+    csg->asks_bounds = bounds > 0 && !csg->has_bounds;
     csg->is_meet = csg->is_meet && !csg->has_bounds && children == root->child_count;
     csg->is_plain =
         csg->is_plain && !csg->has_bounds && children == root->child_count && csg->primitive_count <= CSG_PLAIN_MOST;
