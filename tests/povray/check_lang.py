@@ -19,8 +19,6 @@ import pictures  # noqa: E402
 # Keeps POV-Ray from warning about an empty scene; in one line, so that nothing else moves.
 PREFACE = "#version 3.7; global_settings { assumed_gamma 1 } sphere { 0, 1 }\n"
 
-AT_ONCE = 6  # runs of POV-Ray, most of whose time is sleep
-
 
 def read_cases(path):
     """Yields (name, program, {file: text}, [declaration], expected debug text or None)."""
@@ -76,7 +74,7 @@ def main():
     top = os.environ.get("top_srcdir", ".")
     cases = [(path, *case) for path in sys.argv[1:] or sorted(glob.glob(f"{top}/tests/lang/*.test"))
              for case in read_cases(path) if case[-1] is not None]
-    with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
+    with concurrent.futures.ThreadPoolExecutor(pictures.POVRAY_AT_ONCE) as pool:
         answers = pool.map(lambda case: run_povray(*case[2:5]), cases)
         for (path, name, _, _, _, expected), (got, code, errors) in zip(cases, answers):
             number += 1

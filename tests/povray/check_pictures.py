@@ -21,7 +21,6 @@ import pictures  # noqa: E402
 
 TOP = os.environ.get("top_srcdir", ".")
 MISSING_TOOL = 3  # rtcheck's exit code when it cannot run POV-Ray or cannot read pictures
-AT_ONCE = 6  # runs of rtcheck: most of the time that POV-Ray takes for a small scene it sleeps
 
 
 def scenes():
@@ -30,9 +29,9 @@ def scenes():
 
 def run_rtcheck(names, povray, folders):
     """Scene -> what rtcheck says of it; and its greatest exit code and its messages."""
-    with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
-        parts = list(pool.map(lambda part: run_part(part, povray, folders),
-                              [names[first::AT_ONCE] for first in range(min(AT_ONCE, len(names)))]))
+    count = min(pictures.POVRAY_AT_ONCE, len(names))
+    with concurrent.futures.ThreadPoolExecutor(count) as pool:
+        parts = list(pool.map(lambda first: run_part(names[first::count], povray, folders), range(count)))
     answers = {scene: answer for part, _, _ in parts for scene, answer in part.items()}
     return answers, max(status for _, status, _ in parts), "".join(messages for _, _, messages in parts)
 

@@ -24,7 +24,6 @@ import pictures  # noqa: E402
 
 COUNT, ODD, SEED = 100, 240, 1
 BATCH = 20  # programs that share a run: a run of POV-Ray takes most of a second, whatever it does
-WORKERS = 16  # most of which POV-Ray sleeps
 PREFACE = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\ncamera { location -5*z look_at 0 }\nsphere { 0, 1 }\n"
 
 ZERO = re.compile(r"-(0\.0+)\b")
@@ -259,7 +258,7 @@ def main():
     batches = [seeds[i:i + BATCH] for i in range(0, count, BATCH)]
     failed = 0
     print(f"1..{len(batches) + -(-len(odd_seeds) // (5 * BATCH)) + 4}\n# seed {seed}")
-    with concurrent.futures.ThreadPoolExecutor(WORKERS) as pool:
+    with concurrent.futures.ThreadPoolExecutor(pictures.POVRAY_AT_ONCE) as pool:
         for number, (batch, (faults, lines)) in enumerate(zip(batches, pool.map(compare, batches)), 1):
             failed += bool(faults)
             print(f"{'not ok' if faults else 'ok'} {number} - programs {batch[0]} to {batch[-1]}, {lines} lines", flush=True)

@@ -31,7 +31,6 @@ from whole_scenes import Block  # noqa: E402
 
 COUNT = 200
 BATCH = 20
-WORKERS = 16  # POV-Ray sleeps for most of a second before and after a picture
 WIDTH, HEIGHT = 48, 36
 MOST_TIES = WIDTH * HEIGHT // 1000
 LARGER = (8, 64, 1024)  # times: POV-Ray's absolute tolerances are as much less
@@ -225,7 +224,8 @@ def main():
     seed = sys.argv[2] if len(sys.argv) > 2 else os.environ.get("SCENES_SEED", own_seed)
     numbers = [int(number) for number in sys.argv[3:]] if len(sys.argv) > 3 else list(range(count))
     print(f"# seed {seed}", flush=True)
-    with concurrent.futures.ThreadPoolExecutor(WORKERS) as pool, concurrent.futures.ThreadPoolExecutor(WORKERS) as trials:
+    with (concurrent.futures.ThreadPoolExecutor(pictures.POVRAY_AT_ONCE) as pool,
+          concurrent.futures.ThreadPoolExecutor(pictures.POVRAY_AT_ONCE) as trials):
         def judged(number):
             kind, words = compare(whole_scenes.scene_of(seed, number))
             if kind == "pictures differ":

@@ -11,6 +11,7 @@ import struct
 import subprocess
 import zlib
 
+POVRAY_AT_ONCE = 8  # runs of POV-Ray, which sleeps for most of a second before and after a small picture
 CODE_BAR = 2        # of 65535: rounding of both, and what single precision of colours makes of it
 TIE_SHARE = 1e-4    # pixels whose ray meets a silhouette within rounding may fall to either side
 WIDTH, HEIGHT = 320, 240
